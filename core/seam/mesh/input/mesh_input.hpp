@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "seam/mesh/mesh_data.hpp"
+#include "seam/scene/parameters.hpp"
+#include "seam/scene/schema.hpp"
+
+namespace seam {
+
+/// Keys of one entry of a scene's `meshes`: either `grid` (a generated box) or `file` (Gmsh .msh or .vtu).
+Schema mesh_schema();
+
+/// Reads or generates a mesh and validates it (see validate_mesh).
+/// @throws Error with the place in the scene or in the mesh file.
+MeshData load_mesh(const Parameters& parameters);
+
+/// Checks what no later code wants to meet: node numbers in range, no dangling nodes, no degenerate or inverted
+/// cell (inverted ones are reported, not turned), no cell twice, no face with more than two cells.
+/// @param origin what to name in messages: the file, or the place of the mesh in the scene
+/// @throws Error listing up to ten offending cells or nodes.
+void validate_mesh(const MeshData& mesh, const std::string& origin);
+
+/// Gmsh 2.2 or 4.1, ASCII; second-order cells become geometry of order 2. Physical groups of the cells'
+/// dimension become regions, those one lower become boundaries.
+/// @throws Error with file and line.
+MeshData read_gmsh(const std::string& path);
+/// The same from memory; `name` is used in messages. Entry point of the fuzz target.
+MeshData read_gmsh_text(const std::string& text, const std::string& name);
+
+/// VTU (ASCII or appended/inline binary as VTK writes them). Sizes and offsets are checked before VTK sees
+/// the file. Cell array "region" (integer or string) makes regions; outer faces make the boundary "outer";
+/// @throws Error with file.
+MeshData read_vtu(const std::string& path);
+
+}  // namespace seam

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace seam {
+
+/// A scalar function of position and time, written in the scene in muParser's syntax: `"0.002*(t - 1000)"`.
+/// It may use x, y, z, t, pi and the scene's parameters (bare or as `${name}`). Cheap to copy. A copy shares
+/// the compiled expression, so one object must not be evaluated by two threads at once.
+class Expression {
+ public:
+  /// The constant 0.
+  Expression() = default;
+  explicit Expression(double constant) : value_(constant) {}
+  /// @throws Error naming the text, the position in it and what is wrong.
+  Expression(const std::string& text, const std::map<std::string, double>& parameters);
+
+  /// @param x position, `dim` entries (missing ones count as 0)
+  double operator()(const double* x, int dim, double t) const;
+  /// True when the value depends on neither position nor time.
+  [[nodiscard]] bool is_constant() const { return !compiled_; }
+  /// True when the value is the constant 0: terms may leave it out.
+  [[nodiscard]] bool is_zero() const { return !compiled_ && value_ == 0.0; }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  struct Compiled;
+  std::shared_ptr<Compiled> compiled_;
+  double value_ = 0.0;
+  std::string text_ = "0";
+};
+
+/// Evaluates text that may use the scene's parameters but not x, y, z, t: `"1/16"`, `"2*E"`, `"${mu}"`.
+/// @throws Error as Expression does.
+double evaluate_constant(const std::string& text, const std::map<std::string, double>& parameters);
+
+}  // namespace seam
