@@ -38,11 +38,12 @@ class Error : public std::runtime_error {
 /// Collects errors and warnings, so that several are reported at once.
 class Diagnostics {
  public:
+  /// @throws Error holding text() when there are 200 entries: then to go on is of no use.
   void error(Location where, std::string message);
   void warning(Location where, std::string message);
   [[nodiscard]] bool has_errors() const;
   [[nodiscard]] const std::vector<Diagnostic>& all() const { return entries_; }
-  /// All entries, sorted by place, one per line.
+  /// All entries (at most 50), sorted by place, one per line.
   [[nodiscard]] std::string text() const;
   /// Throws an Error holding text() if there is at least one error.
   void throw_if_errors() const;

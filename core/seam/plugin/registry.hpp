@@ -56,8 +56,8 @@ class Registry {
 
  private:
   void insert(Entry entry);
-  [[nodiscard]] const Entry& require(const std::string& kind, const std::string& name, std::type_index interface,
-                                     const Location& where) const;
+  [[nodiscard]] const Entry& require(const std::string& kind, const std::string& name,
+                                     std::type_index interface, const Location& where) const;
   std::vector<Entry> entries_;
   std::string current_plugin_ = "core";
 };

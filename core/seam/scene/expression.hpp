@@ -39,4 +39,8 @@ class Expression {
 /// @throws Error as Expression does.
 double evaluate_constant(const std::string& text, const std::map<std::string, double>& parameters);
 
+/// True for names that mean something of their own in expressions (x, y, z, t, pi, sin, ...): no parameter
+/// may take them.
+bool is_reserved_in_expressions(const std::string& name);
+
 }  // namespace seam

@@ -24,14 +24,15 @@ class Parameters {
   [[nodiscard]] bool boolean(const std::string& key) const;
   [[nodiscard]] long integer(const std::string& key) const;
   [[nodiscard]] double number(const std::string& key) const;
-  [[nodiscard]] const std::string& text(const std::string& key) const;  ///< text, choice, file (resolved), reference
+  [[nodiscard]] const std::string& text(
+      const std::string& key) const;  ///< text, choice, file (resolved), reference
   [[nodiscard]] const std::vector<double>& vector(const std::string& key) const;
   [[nodiscard]] const Expression& expression(const std::string& key) const;
   /// One entry per component; use `component_given` where null marks a free component.
   [[nodiscard]] const std::vector<Expression>& vector_expression(const std::string& key) const;
   [[nodiscard]] bool component_given(const std::string& key, int component) const;
   [[nodiscard]] const std::vector<std::string>& names(const std::string& key) const;
-  [[nodiscard]] const Parameters& object(const std::string& key) const;  ///< object, typed
+  [[nodiscard]] const Parameters& object(const std::string& key) const;             ///< object, typed
   [[nodiscard]] const std::vector<Parameters>& list(const std::string& key) const;  ///< list, typed_list
   /// In the order of the scene.
   [[nodiscard]] const std::vector<std::pair<std::string, Parameters>>& map(const std::string& key) const;
@@ -47,7 +48,8 @@ class Parameters {
   struct Value {
     using Map = std::vector<std::pair<std::string, Parameters>>;
     std::variant<bool, long, double, std::string, std::vector<double>, Expression, std::vector<Expression>,
-                 std::vector<std::string>, std::vector<Parameters>, Map> data;
+                 std::vector<std::string>, std::vector<Parameters>, Map>
+        data;
     std::vector<bool> component_given;  ///< vector_expression only
     Location where;
     bool given = true;

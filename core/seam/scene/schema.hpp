@@ -14,7 +14,7 @@ class Schema;
 enum class ValueKind {
   boolean,
   integer,
-  number,             ///< a constant; may be written as an expression of the scene's parameters
+  number,  ///< a constant; may be written as an expression of the scene's parameters
   text,
   choice,             ///< one of a fixed set of words
   vector,             ///< list of constants
@@ -26,7 +26,7 @@ enum class ValueKind {
   object,             ///< keys of a sub-schema
   list,               ///< list of objects of a sub-schema
   map,                ///< free names, each with an object of a sub-schema
-  typed,              ///< object whose key `type` selects a registered type of a kind; or just the type's name
+  typed,  ///< object whose key `type` selects a registered type of a kind; or just the type's name
   typed_list,
   typed_map,
 };
@@ -38,31 +38,70 @@ struct Parameter {
   std::string help;
   std::string unit_text;
   bool required = true;
-  std::string default_text;                    ///< as it would be written in YAML; "" when there is none
+  std::string default_text;  ///< as it would be written in YAML; "" when there is none
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
   bool maximum_excluded = false;
   std::vector<std::string> choices;
-  std::string target;                          ///< reference: what it names; typed: the registry's kind
-  int size = 0;                                ///< vector: number of entries, 0 for the scene's dimension, -1 for any
-  std::shared_ptr<const Schema> sub;           ///< object, list, map
+  /// reference, names: what is named ("mesh", "field", "interface", "boundary", "region"; see naming());
+  /// typed: the registry's kind
+  std::string target;
+  int size = 0;                       ///< vector: number of entries, 0 for the scene's dimension, -1 for any
+  std::shared_ptr<const Schema> sub;  ///< object, list, map
+  bool bare_values = false;           ///< map: entries are written as the value of the sub-schema's only key
 
   /// Unit of the value, for documentation. "" for a pure number.
-  Parameter& unit(const std::string& u) { unit_text = u; return *this; }
+  Parameter& unit(const std::string& u) {
+    unit_text = u;
+    return *this;
+  }
   /// Makes the key optional with this value (written as in YAML).
-  Parameter& otherwise(const std::string& value) { required = false; default_text = value; return *this; }
+  Parameter& otherwise(const std::string& value) {
+    required = false;
+    default_text = value;
+    return *this;
+  }
   /// Makes the key optional without a value: ask Parameters::has.
-  Parameter& optional() { required = false; return *this; }
-  Parameter& at_least(double v) { minimum = v; minimum_excluded = false; return *this; }
-  Parameter& at_most(double v) { maximum = v; maximum_excluded = false; return *this; }
-  Parameter& above(double v) { minimum = v; minimum_excluded = true; return *this; }
-  Parameter& below(double v) { maximum = v; maximum_excluded = true; return *this; }
-  Parameter& entries(int n) { size = n; return *this; }
+  Parameter& optional() {
+    required = false;
+    return *this;
+  }
+  Parameter& at_least(double v) {
+    minimum = v;
+    minimum_excluded = false;
+    return *this;
+  }
+  Parameter& at_most(double v) {
+    maximum = v;
+    maximum_excluded = false;
+    return *this;
+  }
+  Parameter& above(double v) {
+    minimum = v;
+    minimum_excluded = true;
+    return *this;
+  }
+  Parameter& below(double v) {
+    maximum = v;
+    maximum_excluded = true;
+    return *this;
+  }
+  Parameter& entries(int n) {
+    size = n;
+    return *this;
+  }
+  /// What the words of a `reference` or of `names` stand for, so that they are checked: "mesh", "field" or
+  /// "interface" of the scene; "boundary" or "region" of the mesh that the same object, or one around it,
+  /// names by its key `mesh` or `field`; "boundary:KEY" takes the field that its key KEY names instead.
+  Parameter& naming(const std::string& what) {
+    target = what;
+    return *this;
+  }
 };
 
-/// The keys a type accepts, declared once. Validation, `seam explain`, the JSON Schema and the reference pages
-/// all come from here.
+/// The keys a type accepts, declared once. Validation, `seam explain`, the JSON Schema and the reference
+/// pages all come from here.
 class Schema {
  public:
   explicit Schema(std::string summary = "") : summary_(std::move(summary)) {}
@@ -82,6 +121,8 @@ class Schema {
   Parameter& object(const std::string& name, const std::string& help, Schema sub);
   Parameter& list(const std::string& name, const std::string& help, Schema sub);
   Parameter& map(const std::string& name, const std::string& help, Schema sub);
+  /// A map whose entries are written bare, `h: 1/16`: the value of the only key that `sub` declares.
+  Parameter& value_map(const std::string& name, const std::string& help, Schema sub);
   Parameter& typed(const std::string& name, const std::string& help, const std::string& kind);
   Parameter& typed_list(const std::string& name, const std::string& help, const std::string& kind);
   Parameter& typed_map(const std::string& name, const std::string& help, const std::string& kind);

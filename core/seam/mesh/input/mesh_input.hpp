@@ -16,8 +16,8 @@ Schema mesh_schema();
 /// @throws Error with the place in the scene or in the mesh file.
 MeshData load_mesh(const Parameters& parameters);
 
-/// Checks what no later code wants to meet: node numbers in range, no dangling nodes, no degenerate or inverted
-/// cell (inverted ones are reported, not turned), no cell twice, no face with more than two cells.
+/// Checks what no later code wants to meet: node numbers in range, no dangling nodes, no degenerate or
+/// inverted cell (inverted ones are reported, not turned), no cell twice, no face with more than two cells.
 /// @param origin what to name in messages: the file, or the place of the mesh in the scene
 /// @throws Error listing up to ten offending cells or nodes.
 void validate_mesh(const MeshData& mesh, const std::string& origin);
@@ -29,9 +29,11 @@ MeshData read_gmsh(const std::string& path);
 /// The same from memory; `name` is used in messages. Entry point of the fuzz target.
 MeshData read_gmsh_text(const std::string& text, const std::string& name);
 
-/// VTU (ASCII or appended/inline binary as VTK writes them). Sizes and offsets are checked before VTK sees
-/// the file. Cell array "region" (integer or string) makes regions; outer faces make the boundary "outer";
-/// @throws Error with file.
+/// VTU, in any encoding VTK writes (see parse_vtu). Cell array "region" (integer or string) makes regions;
+/// outer faces make the boundary "outer".
+/// @throws Error with file and, where one is to blame, line.
 MeshData read_vtu(const std::string& path);
+/// The same from memory; `name` is used in messages.
+MeshData read_vtu_text(const std::string& text, const std::string& name);
 
 }  // namespace seam

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/assembly/assembler.hpp"
+
+#include <algorithm>
+
+#include "seam/base/stopwatch.hpp"
+
+namespace seam {
+
+Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicator)
+    : fields_(std::move(fields)), communicator_(communicator) {
+  for (Field* field : fields_)
+    for (Block& block : field->blocks()) blocks_.push_back({field, &block, {}});
+  matrix_.communicator = communicator;
+}
+
+void Assembler::add(std::shared_ptr<const IntegrationDomain> domain, std::vector<BoundTerm> terms) {
+  Group group{domain, std::make_unique<ElementEvaluator>(*domain, std::move(terms)), {}};
+  for (const auto& part : group.evaluator->parts())
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      if (blocks_[b].block == part.states) group.block_of_part.push_back(static_cast<int>(b));
+  groups_.push_back(std::move(group));
+}
+
+void Assembler::rebuild() {
+  const Stopwatch watch;
+  number_unknowns();
+  pattern_seconds_ += watch.seconds();
+}
+
+void Assembler::number_unknowns() {
+  std::vector<NodeGraph::Node> nodes;
+  prescribed_.clear();
+  node_has_prescribed_.clear();
+  int unknowns = 0, owned_nodes = 0, owned_unknowns = 0;
+  const auto append = [&](NumberedBlock& b, int node) {
+    b.node_index[node] = static_cast<int>(nodes.size());
+    nodes.push_back({b.block->size, b.block->space->owner(node), unknowns, 0});
+    unknowns += b.block->size;
+    char any = 0;
+    for (int c = 0; c < b.block->size; ++c) {
+      prescribed_.push_back(b.block->prescribed[static_cast<std::size_t>(node) * b.block->size + c]);
+      any |= prescribed_.back();
+    }
+    node_has_prescribed_.push_back(any);
+  };
+  for (const bool ghosts : {false, true}) {
+    for (NumberedBlock& b : blocks_) {
+      const int owned = b.block->space->owned_nodes();
+      if (!ghosts) b.node_index.assign(b.block->space->nodes(), -1);
+      for (int node = ghosts ? owned : 0; node < (ghosts ? b.block->space->nodes() : owned); ++node)
+        if (b.block->active[node]) append(b, node);
+    }
+    if (!ghosts) {
+      owned_nodes = static_cast<int>(nodes.size());
+      owned_unknowns = unknowns;
+    }
+  }
+  matrix_.first_row = communicator_.sum_before(owned_unknowns);
+  matrix_.global_rows = communicator_.sum(static_cast<long long>(owned_unknowns));
+  for (NumberedBlock& b : blocks_) {
+    std::vector<long long> equation(b.node_index.size(), -1);
+    for (std::size_t i = 0; i < equation.size(); ++i)
+      if (b.node_index[i] >= 0) equation[i] = matrix_.first_row + nodes[b.node_index[i]].first;
+    b.block->space->halo().update(equation, 1);
+    for (std::size_t i = 0; i < equation.size(); ++i)
+      if (b.node_index[i] >= 0) nodes[b.node_index[i]].equation = equation[i];
+  }
+  NodeGraph::Elements elements;
+  collect_elements(elements);
+  graph_.build(communicator_, std::move(nodes), owned_nodes, elements, matrix_);
+  local_residual_.assign(unknowns, 0.0);
+  local_magnitude_.assign(unknowns, 0.0);
+  local_lift_.assign(unknowns, 0.0);
+  pending_.assign(unknowns, 0.0);
+}
+
+void Assembler::collect_elements(NodeGraph::Elements& elements) const {
+  for (const Group& group : groups_) {
+    const auto& parts = group.evaluator->parts();
+    for (int e = 0; e < group.domain->size(); ++e) {
+      for (std::size_t p = 0; p < parts.size(); ++p) {
+        const int* nodes = group.domain->nodes(e, parts[p].side, parts[p].block);
+        for (int a = 0; a < parts[p].nodes; ++a)
+          if (const int n = blocks_[group.block_of_part[p]].node_index[nodes[a]]; n >= 0) elements.node.push_back(n);
+      }
+      elements.start.push_back(elements.node.size());
+    }
+  }
+}
+
+void Assembler::assemble(const TimePoint& at, bool with_tangent) {
+  const Stopwatch watch;
+  std::fill(local_residual_.begin(), local_residual_.end(), 0.0);
+  std::fill(local_magnitude_.begin(), local_magnitude_.end(), 0.0);
+  std::fill(local_lift_.begin(), local_lift_.end(), 0.0);
+  if (with_tangent) std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
+  find_pending();
+  for (Group& group : groups_) assemble_group(group, at, with_tangent);
+  graph_.collect_vector(local_residual_);
+  graph_.collect_vector(local_magnitude_);
+  if (with_tangent) {
+    graph_.collect_matrix(matrix_);
+    graph_.collect_vector(local_lift_);
+  }
+  hold_prescribed(with_tangent);
+  assembly_seconds_ += watch.seconds();
+}
+
+void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tangent) {
+  ElementEvaluator& element = *group.evaluator;
+  for (int e = 0; e < group.domain->size(); ++e) {
+    element.compute(e, at, with_tangent);
+    element_nodes_.clear();
+    for (std::size_t p = 0; p < element.parts().size(); ++p) {
+      const auto& part = element.parts()[p];
+      const int* nodes = element.element().sides[part.side].nodes[part.block];
+      for (int a = 0; a < part.nodes; ++a)
+        element_nodes_.push_back(blocks_[group.block_of_part[p]].node_index[nodes[a]]);
+    }
+    scatter_vector(element);
+    if (with_tangent) scatter_matrix(element);
+  }
+}
+
+void Assembler::scatter_vector(const ElementEvaluator& element) {
+  const int* node = element_nodes_.data();
+  for (const auto& part : element.parts())
+    for (int a = 0; a < part.nodes; ++a, ++node) {
+      if (*node < 0) continue;
+      const int first = graph_.node(*node).first;
+      for (int c = 0; c < part.components; ++c) {
+        local_residual_[first + c] += element.residual()[part.offset + c * part.nodes + a];
+        local_magnitude_[first + c] += element.magnitude()[part.offset + c * part.nodes + a];
+      }
+    }
+}
+
+void Assembler::scatter_matrix(const ElementEvaluator& element) {
+  const int size = element.size();
+  const int* row_node = element_nodes_.data();
+  for (const auto& rows : element.parts())
+    for (int a = 0; a < rows.nodes; ++a, ++row_node) {
+      if (*row_node < 0) continue;
+      const char* row_prescribed = &prescribed_[graph_.node(*row_node).first];
+      const int* column_node = element_nodes_.data();
+      for (const auto& columns : element.parts())
+        for (int b = 0; b < columns.nodes; ++b, ++column_node) {
+          if (*column_node < 0) continue;
+          const NodeGraph::Place at = graph_.place(*row_node, *column_node);
+          const double* from = &element.matrix()[static_cast<std::size_t>(rows.offset + a) * size + columns.offset + b];
+          double* to = &matrix_.value[at.first];
+          const bool plain = !node_has_prescribed_[*row_node] && !node_has_prescribed_[*column_node];
+          const char* column_prescribed = &prescribed_[graph_.node(*column_node).first];
+          for (int i = 0; i < rows.components; ++i)
+            for (int j = 0; j < columns.components; ++j) {
+              const double entry = from[(static_cast<std::ptrdiff_t>(i) * rows.nodes) * size + j * columns.nodes];
+              if (plain || (!row_prescribed[i] && !column_prescribed[j]))
+                to[i * at.row_length + j] += entry;
+              else if (!row_prescribed[i])
+                local_lift_[graph_.node(*row_node).first + i] +=
+                    entry * pending_[graph_.node(*column_node).first + j];
+            }
+        }
+    }
+}
+
+/// Prescribed unknowns keep their value: identity rows, and their residual is the force that holds them.
+void Assembler::hold_prescribed(bool with_tangent) {
+  full_residual_.assign(local_residual_.begin(), local_residual_.begin() + matrix_.rows);
+  magnitude_.assign(local_magnitude_.begin(), local_magnitude_.begin() + matrix_.rows);
+  residual_ = full_residual_;
+  right_side_.resize(matrix_.rows);
+  for (int r = 0; r < matrix_.rows; ++r) right_side_[r] = prescribed_[r] ? 0.0 : -(residual_[r] + local_lift_[r]);
+  for (int r = 0; r < matrix_.rows; ++r) {
+    if (!prescribed_[r]) continue;
+    residual_[r] = 0;
+    if (!with_tangent) continue;
+    for (std::size_t k = matrix_.row_start[r]; k < matrix_.row_start[r + 1]; ++k)
+      if (matrix_.column[k] == r) matrix_.value[k] = 1.0;
+  }
+}
+
+void Assembler::add_increment(const std::vector<double>& increment, double factor) {
+  for (NumberedBlock& b : blocks_) {
+    for (int node = 0; node < b.block->space->owned_nodes(); ++node) {
+      if (b.node_index[node] < 0) continue;
+      const int first = graph_.node(b.node_index[node]).first;
+      for (int c = 0; c < b.block->size; ++c)
+      {
+        const std::size_t i = static_cast<std::size_t>(node) * b.block->size + c;
+        const double way = prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i] : increment[first + c];
+        // The last part of the way ends exactly at the value.
+        b.block->now.value[i] = prescribed_[first + c] && factor == 1.0 ? b.block->prescribed_value[i]
+                                                                        : b.block->now.value[i] + factor * way;
+      }
+    }
+    b.block->space->halo().update(b.block->now.value, b.block->size);
+  }
+}
+
+void Assembler::find_pending() {
+  for (const NumberedBlock& b : blocks_)
+    for (std::size_t node = 0; node < b.node_index.size(); ++node) {
+      if (b.node_index[node] < 0 || !node_has_prescribed_[b.node_index[node]]) continue;
+      const int first = graph_.node(b.node_index[node]).first;
+      for (int c = 0; c < b.block->size; ++c) {
+        const std::size_t i = node * b.block->size + c;
+        pending_[first + c] = prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i] : 0.0;
+      }
+    }
+}
+
+bool Assembler::prescribed_pending() const {
+  return communicator_.any(std::any_of(pending_.begin(), pending_.end(), [](double way) { return way != 0.0; }));
+}
+
+int Assembler::row(const Field& field, int block, int node, int component) const {
+  for (const NumberedBlock& b : blocks_)
+    if (b.block == &field.blocks()[block])
+      return b.node_index[node] < 0 ? -1 : graph_.node(b.node_index[node]).first + component;
+  return -1;
+}
+
+std::vector<EquationBlock> Assembler::equation_blocks() const {
+  std::vector<EquationBlock> result;
+  int first = 0;
+  for (const NumberedBlock& b : blocks_) {
+    EquationBlock block;
+    block.field = b.field->name();
+    block.first = first;
+    block.unknowns_per_node = b.block->size;
+    block.dimension = b.field->mesh().dimension();
+    for (int node = 0; node < b.block->space->owned_nodes(); ++node) {
+      if (b.node_index[node] < 0) continue;
+      const double* x = b.block->space->position(node);
+      block.coordinates.insert(block.coordinates.end(), x, x + block.dimension);
+      block.count += b.block->size;
+    }
+    first += block.count;
+    result.push_back(std::move(block));
+  }
+  return result;
+}
+
+}  // namespace seam

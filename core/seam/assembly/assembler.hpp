@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "seam/assembly/evaluator.hpp"
+#include "seam/assembly/node_graph.hpp"
+#include "seam/linear/matrix.hpp"
+
+namespace seam {
+
+/// Turns fields and terms into one distributed nonlinear system. Unknowns are the active ones of all blocks of
+/// all fields; those of a node are contiguous. The set of active unknowns, of elements and of prescribed values
+/// may change at any time: call rebuild() afterwards. States live in the fields, not here, so nothing is lost.
+class Assembler {
+ public:
+  Assembler(std::vector<Field*> fields, const Communicator& communicator);
+
+  /// Adds terms to be integrated over a domain.
+  void add(std::shared_ptr<const IntegrationDomain> domain, std::vector<BoundTerm> terms);
+
+  /// Numbers the active unknowns and builds the pattern. Collective.
+  void rebuild();
+  /// Sets residual, magnitude and (with_tangent) matrix at the present states of the fields. Collective.
+  void assemble(const TimePoint& at, bool with_tangent);
+
+  [[nodiscard]] const Matrix& matrix() const { return matrix_; }
+  /// [owned row]; zero where the unknown is prescribed.
+  [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
+  /// What the linear system is to be solved for: the residual, plus the tangent's action on the way that
+  /// prescribed unknowns have still to go. So a moved boundary takes the interior along in the first iteration.
+  [[nodiscard]] const std::vector<double>& right_side() const { return right_side_; }
+  /// True when some prescribed unknown has not reached its value. Collective.
+  [[nodiscard]] bool prescribed_pending() const;
+  /// [owned row]; where an unknown is prescribed, the force that holds it.
+  [[nodiscard]] const std::vector<double>& full_residual() const { return full_residual_; }
+  /// [owned row]; sum of the absolute contributions of all elements: what the residual's size is measured by.
+  [[nodiscard]] const std::vector<double>& magnitude() const { return magnitude_; }
+
+  /// states += factor * increment on all active unknowns; prescribed ones go that part of their way. Updates
+  /// ghosts. Collective.
+  /// @param increment [owned row]
+  void add_increment(const std::vector<double>& increment, double factor);
+  /// Row of an owned unknown, -1 when its node is inactive.
+  [[nodiscard]] int row(const Field& field, int block, int node, int component) const;
+  [[nodiscard]] const std::vector<Field*>& fields() const { return fields_; }
+  /// One entry per block of each field, in the order of the rows.
+  [[nodiscard]] std::vector<EquationBlock> equation_blocks() const;
+  /// Seconds spent in element loops and in building patterns, for the report.
+  [[nodiscard]] double assembly_seconds() const { return assembly_seconds_; }
+  [[nodiscard]] double pattern_seconds() const { return pattern_seconds_; }
+
+ private:
+  struct Group {
+    std::shared_ptr<const IntegrationDomain> domain;
+    std::unique_ptr<ElementEvaluator> evaluator;
+    std::vector<int> block_of_part;  ///< index into blocks_
+  };
+  struct NumberedBlock {
+    Field* field;
+    Block* block;
+    std::vector<int> node_index;  ///< local node -> index of NodeGraph, -1 when inactive
+  };
+
+  void number_unknowns();
+  void find_pending();
+  void collect_elements(NodeGraph::Elements& elements) const;
+  void assemble_group(Group& group, const TimePoint& at, bool with_tangent);
+  void scatter_vector(const ElementEvaluator& element);
+  void scatter_matrix(const ElementEvaluator& element);
+  void hold_prescribed(bool with_tangent);
+
+  std::vector<Field*> fields_;
+  Communicator communicator_;
+  std::vector<Group> groups_;
+  std::vector<NumberedBlock> blocks_;
+  NodeGraph graph_;
+  Matrix matrix_;
+  std::vector<char> prescribed_;  ///< per local unknown (owned and ghost)
+  std::vector<char> node_has_prescribed_;
+  std::vector<double> pending_;  ///< per local unknown: prescribed minus present value
+  std::vector<double> local_residual_, local_magnitude_;  ///< owned and ghost unknowns
+  std::vector<double> local_lift_;                        ///< the tangent's action on pending prescribed values
+  std::vector<double> residual_, right_side_, full_residual_, magnitude_;
+  std::vector<int> element_nodes_;
+  double assembly_seconds_ = 0, pattern_seconds_ = 0;
+};
+
+}  // namespace seam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "seam/field/field.hpp"
+#include "seam/mesh/lagrange.hpp"
+#include "seam/mesh/quadrature.hpp"
+
+namespace seam {
+
+/// One side of an element: a cell, and the reference coordinates of the element's points in it.
+struct ElementSide {
+  const Field* field = nullptr;
+  int global_cell = -1;             ///< number of the cell in the whole mesh, for messages
+  int face = -1;                    ///< local face, where the points lie on one
+  const double* geometry = nullptr; ///< [geometry node][dimension]
+  double diameter = 0;
+  /// Local nodes of the cell in each block of the field.
+  std::vector<const int*> nodes;
+  /// Shape tables at the points, per order (index order - 1); null where no space uses that order.
+  const ShapeTable* table[2] = {nullptr, nullptr};
+
+  // Filled by map_geometry:
+  std::vector<double> position;          ///< [point][dimension]
+  std::vector<double> inverse_jacobian;  ///< [point][reference direction][dimension]
+  std::vector<double> determinant;       ///< [point]
+
+  /// Evaluates the cell's map at the points of `table[geometry order - 1]`.
+  /// @throws Error when the map is not orientation-preserving at a point
+  void map_geometry();
+};
+
+/// What terms are integrated over: a cell, a face, or a piece of an interface, with its quadrature points.
+struct Element {
+  int dimension = 2;
+  int points = 0;
+  std::vector<double> weight;     ///< [point], m^d or m^(d-1)
+  std::vector<double> normal;     ///< [point][dimension], outward from side 0; empty for cells
+  std::vector<double> cell_size;  ///< [point]
+  std::vector<ElementSide> sides;
+
+  /// Fills weight and normal of points on a face of side 0's cell.
+  void measure_face(const CellTopology& cell, int face, const Quadrature& rule);
+};
+
+/// A set of elements on which a list of terms is integrated. This rank evaluates each of its elements; all
+/// elements of all ranks together make up the domain.
+class IntegrationDomain {
+ public:
+  virtual ~IntegrationDomain() = default;
+  /// Number of elements this rank evaluates.
+  [[nodiscard]] virtual int size() const = 0;
+  /// The field on each side.
+  [[nodiscard]] virtual std::vector<Field*> fields() const = 0;
+  /// Sets up element `index`; the object is reused from element to element.
+  virtual void fill(int index, Element& element) const = 0;
+  /// Local nodes of one side's cell in one block, without the cost of fill().
+  [[nodiscard]] virtual const int* nodes(int index, int side, int block) const = 0;
+  /// For messages: "cells of field 'water'".
+  [[nodiscard]] virtual std::string description() const = 0;
+};
+
+}  // namespace seam

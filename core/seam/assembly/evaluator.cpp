@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/assembly/evaluator.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "seam/assembly/contraction.hpp"
+
+namespace seam {
+
+const double* ElementEvaluator::Operators::of(Shape shape) const {
+  switch (shape) {
+    case Shape::value: return value;
+    case Shape::gradient: return gradient.data();
+    case Shape::normal_derivative: return normal.data();
+    case Shape::second_normal_derivative: return second_normal.data();
+  }
+  return nullptr;
+}
+
+ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, std::vector<BoundTerm> terms) : domain_(&domain) {
+  dim_ = domain.fields().front()->mesh().dimension();
+  find_parts(domain, terms);
+  operators_.resize(parts_.size());
+  for (const BoundTerm& bound : terms) {
+    const Signature& s = bound.term->signature(dim_);
+    Compiled compiled{bound.term, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
+    if (bound.operands.size() < s.components.size())
+      throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound", domain.description(),
+                                         s.components.size(), bound.operands.size()));
+    for (std::size_t k = 0; k < s.components.size(); ++k) {
+      const Operand& operand = bound.operands[k];
+      const Field::Place place = domain.fields().at(operand.side)->place(operand.unknown);
+      if (place.components != s.components[k])
+        throw std::logic_error(fmt::format("unknown '{}' has {} components, the term on {} expects {}", operand.unknown,
+                                           place.components, domain.description(), s.components[k]));
+      const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) {
+        return p.side == operand.side && p.block == place.block;
+      });
+      compiled.operands.push_back({static_cast<int>(part - parts_.begin()), place.offset, place.components});
+    }
+    for (const auto* slots : {&s.inputs, &s.outputs})
+      for (const Slot& slot : *slots) {
+        Operators& operators = operators_[compiled.operands[slot.operand].part];
+        operators.needs_gradient |= slot.shape == Shape::gradient || slot.shape == Shape::normal_derivative;
+        operators.needs_normal |= slot.shape == Shape::normal_derivative;
+        operators.needs_second_normal |= slot.shape == Shape::second_normal_derivative;
+        level_used_[static_cast<int>(slot.level)] = true;
+      }
+    terms_.push_back(std::move(compiled));
+  }
+}
+
+void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms) {
+  const std::vector<Field*> fields = domain.fields();
+  for (const BoundTerm& bound : terms)
+    for (const Operand& operand : bound.operands) {
+      Field& field = *fields.at(operand.side);
+      const int b = field.place(operand.unknown).block;
+      const bool known = std::any_of(parts_.begin(), parts_.end(),
+                                     [&](const Part& p) { return p.side == operand.side && p.block == b; });
+      if (known) continue;
+      Block& block = field.blocks()[b];
+      parts_.push_back({operand.side, b, &block, block.space->nodes_per_cell(), block.size, 0});
+    }
+  for (Part& part : parts_) {
+    part.offset = size_;
+    size_ += part.nodes * part.components;
+  }
+}
+
+void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent) {
+  domain_->fill(index, element_);
+  compute_operators();
+  gather();
+  residual_.assign(size_, 0.0);
+  magnitude_.assign(size_, 0.0);
+  if (with_tangent) matrix_.assign(static_cast<std::size_t>(size_) * size_, 0.0);
+  for (const Compiled& term : terms_) {
+    compute_inputs(term);
+    evaluate(term, at, with_tangent);
+    add_residual(term);
+    if (with_tangent && term.columns > 0) add_tangent(term);
+  }
+}
+
+const std::vector<double>& ElementEvaluator::compute_values(int index, const TimePoint& at) {
+  domain_->fill(index, element_);
+  compute_operators();
+  gather();
+  compute_inputs(terms_.front());
+  evaluate(terms_.front(), at, false);
+  return point_residual_;
+}
+
+void ElementEvaluator::compute_operators() {
+  const int points = element_.points;
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const Part& part = parts_[p];
+    const ElementSide& side = element_.sides[part.side];
+    const ShapeTable& table = *side.table[part.states->space->order() - 1];
+    Operators& operators = operators_[p];
+    operators.value = table.value.data();
+    if (operators.needs_gradient) {
+      const int n = table.nodes;
+      operators.gradient.assign(static_cast<std::size_t>(points) * dim_ * n, 0.0);
+      for (int q = 0; q < points; ++q)
+        for (int i = 0; i < dim_; ++i) {
+          double* row = &operators.gradient[(static_cast<std::size_t>(q) * dim_ + i) * n];
+          for (int j = 0; j < table.dimension; ++j) {
+            const double factor = side.inverse_jacobian[(static_cast<std::size_t>(q) * dim_ + j) * dim_ + i];
+            const double* reference = table.gradient_at(q) + static_cast<std::ptrdiff_t>(j) * n;
+            for (int a = 0; a < n; ++a) row[a] += factor * reference[a];
+          }
+        }
+    }
+    if (operators.needs_normal || operators.needs_second_normal) compute_normal_operators(static_cast<int>(p));
+  }
+}
+
+void ElementEvaluator::compute_normal_operators(int p) {
+  const ElementSide& side = element_.sides[parts_[p].side];
+  const ShapeTable& table = *side.table[parts_[p].states->space->order() - 1];
+  Operators& operators = operators_[p];
+  const int n = table.nodes;
+  operators.normal.assign(static_cast<std::size_t>(element_.points) * n, 0.0);
+  operators.second_normal.assign(operators.needs_second_normal ? operators.normal.size() : 0, 0.0);
+  for (int q = 0; q < element_.points; ++q) {
+    const double* normal = &element_.normal[static_cast<std::size_t>(q) * dim_];
+    double direction[3] = {0, 0, 0};  // the normal in reference coordinates
+    for (int j = 0; j < dim_; ++j)
+      for (int i = 0; i < dim_; ++i)
+        direction[j] += side.inverse_jacobian[(static_cast<std::size_t>(q) * dim_ + j) * dim_ + i] * normal[i];
+    for (int a = 0; a < n; ++a)
+      for (int j = 0; j < dim_; ++j) {
+        operators.normal[static_cast<std::size_t>(q) * n + a] += direction[j] * table.gradient_at(q)[j * n + a];
+        // Exact on affine cells; on curved ones the map's own curvature, of higher order, is left out.
+        for (int k = 0; k < dim_ && operators.needs_second_normal; ++k)
+          operators.second_normal[static_cast<std::size_t>(q) * n + a] +=
+              direction[j] * direction[k] * table.hessian_at(q)[(j * dim_ + k) * n + a];
+      }
+  }
+}
+
+/// Copies the nodal values of the element, component-major.
+void ElementEvaluator::gather() {
+  for (int level = 0; level < 5; ++level) {
+    if (!level_used_[level]) continue;
+    local_[level].resize(size_);
+    for (const Part& part : parts_) {
+      const NodalState& now = part.states->now;
+      const NodalState& old = part.states->old;
+      const std::vector<double>* from[5] = {&now.value, &now.rate, &now.second_rate, &old.value, &old.rate};
+      const int* nodes = element_.sides[part.side].nodes[part.block];
+      double* to = &local_[level][part.offset];
+      for (int a = 0; a < part.nodes; ++a)
+        for (int c = 0; c < part.components; ++c)
+          to[c * part.nodes + a] = (*from[level])[static_cast<std::size_t>(nodes[a]) * part.components + c];
+    }
+  }
+}
+
+void ElementEvaluator::compute_inputs(const Compiled& term) {
+  inputs_.resize(static_cast<std::size_t>(element_.points) * term.inputs);
+  int at = 0;
+  for (const Slot& slot : term.signature->inputs) {
+    const BoundOperand& operand = term.operands[slot.operand];
+    const Part& part = parts_[operand.part];
+    const int r = rows(slot.shape, dim_), n = part.nodes;
+    const double* shape = operators_[operand.part].of(slot.shape);
+    const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
+    for (int q = 0; q < element_.points; ++q)
+      for (int c = 0; c < operand.components; ++c)
+        for (int i = 0; i < r; ++i) {
+          const double* row = shape + (static_cast<std::ptrdiff_t>(q) * r + i) * n;
+          double sum = 0;
+          for (int a = 0; a < n; ++a) sum += row[a] * values[c * n + a];
+          inputs_[static_cast<std::size_t>(q) * term.inputs + at + c * r + i] = sum;
+        }
+    at += operand.components * r;
+  }
+}
+
+void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool with_tangent) {
+  constexpr int most_operands = 32;
+  double factors[most_operands][3];
+  for (std::size_t k = 0; k < term.operands.size(); ++k) {
+    const BoundOperand& operand = term.operands[k];
+    const int order = parts_[operand.part].states->time_order[operand.offset];
+    factors[k][0] = at.initial_rates && order > 0 ? 0.0 : 1.0;
+    factors[k][1] = at.initial_rates ? (order == 1 ? 1.0 : 0.0) : at.rate_factor;
+    factors[k][2] = at.initial_rates ? (order == 2 ? 1.0 : 0.0) : at.second_rate_factor;
+  }
+  PointBatch batch;
+  batch.dimension = dim_;
+  batch.count = element_.points;
+  batch.position = element_.sides[0].position.data();
+  batch.normal = element_.normal.empty() ? nullptr : element_.normal.data();
+  batch.cell_size = element_.cell_size.data();
+  batch.inputs = inputs_.data();
+  batch.time = at.time;
+  batch.step = at.step;
+  batch.theta = at.theta;
+  batch.level_factor = factors;
+  point_residual_.resize(static_cast<std::size_t>(element_.points) * term.outputs);
+  point_tangent_.resize(point_residual_.size() * term.columns);
+  term.term->evaluate(batch, point_residual_.data(),
+                      with_tangent && term.columns > 0 ? point_tangent_.data() : nullptr);
+}
+
+void ElementEvaluator::add_residual(const Compiled& term) {
+  int at = 0;
+  for (const Slot& slot : term.signature->outputs) {
+    const BoundOperand& operand = term.operands[slot.operand];
+    const Part& part = parts_[operand.part];
+    const int r = rows(slot.shape, dim_), n = part.nodes;
+    const double* shape = operators_[operand.part].of(slot.shape);
+    for (int c = 0; c < operand.components; ++c) {
+      double* target = &residual_[part.offset + (operand.offset + c) * n];
+      double* scale = &magnitude_[part.offset + (operand.offset + c) * n];
+      for (int q = 0; q < element_.points; ++q)
+        for (int i = 0; i < r; ++i) {
+          const double coefficient =
+              element_.weight[q] * point_residual_[static_cast<std::size_t>(q) * term.outputs + at + c * r + i];
+          const double* row = shape + (static_cast<std::ptrdiff_t>(q) * r + i) * n;
+          for (int a = 0; a < n; ++a) {
+            target[a] += coefficient * row[a];
+            scale[a] += std::abs(coefficient * row[a]);
+          }
+        }
+    }
+    at += operand.components * r;
+  }
+}
+
+/// K += B^T D B: first the columns' operators are applied point by point, then the rows' in one product.
+void ElementEvaluator::add_tangent(const Compiled& term) {
+  const int points = element_.points;
+  int first_column = size_, end_column = 0;
+  for (const Slot& slot : term.signature->columns) {
+    const Part& part = parts_[term.operands[slot.operand].part];
+    first_column = std::min(first_column, part.offset);
+    end_column = std::max(end_column, part.offset + part.nodes * part.components);
+  }
+  const int width = end_column - first_column;
+
+  int out = 0;
+  for (const Slot& row_slot : term.signature->outputs) {
+    const BoundOperand& row_operand = term.operands[row_slot.operand];
+    const Part& row_part = parts_[row_operand.part];
+    const int r = rows(row_slot.shape, dim_);
+    for (int c = 0; c < row_operand.components; ++c) {
+      columns_.assign(static_cast<std::size_t>(points) * r * width, 0.0);
+      for (int q = 0; q < points; ++q)
+        for (int i = 0; i < r; ++i) {
+          const double* d = &point_tangent_[(static_cast<std::size_t>(q) * term.outputs + out + c * r + i) * term.columns];
+          double* target = &columns_[(static_cast<std::size_t>(q) * r + i) * width];
+          int in = 0;
+          for (const Slot& slot : term.signature->columns) {
+            const BoundOperand& operand = term.operands[slot.operand];
+            const Part& part = parts_[operand.part];
+            const int m = rows(slot.shape, dim_);
+            const double* shape =
+                operators_[operand.part].of(slot.shape) + static_cast<std::ptrdiff_t>(q) * m * part.nodes;
+            double* at = target + part.offset - first_column + operand.offset * part.nodes;
+            for (int k = 0; k < operand.components; ++k)
+              for (int l = 0; l < m; ++l, ++in)
+                add_scaled(part.nodes, element_.weight[q] * d[in], shape + l * part.nodes, at + k * part.nodes);
+          }
+        }
+      double* target = &matrix_[static_cast<std::size_t>(row_part.offset + (row_operand.offset + c) * row_part.nodes) *
+                                    size_ + first_column];
+      add_product(row_part.nodes, width, points * r, operators_[row_operand.part].of(row_slot.shape), columns_.data(),
+                  width, target, size_);
+    }
+    out += row_operand.components * r;
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "seam/assembly/element.hpp"
+#include "seam/term/term.hpp"
+
+namespace seam {
+
+/// The instant at which terms are evaluated, and what the one-step-theta scheme makes of a rate there:
+/// rate = factor (value - old value) + known part (thesis (2.93), (2.94)).
+struct TimePoint {
+  double time = 0;
+  double step = 0;   ///< 0 in a static problem
+  double theta = 1;
+  /// d(rate)/d(value) and d(second rate)/d(value).
+  double rate_factor = 0;
+  double second_rate_factor = 0;
+  /// Only for the consistent initial rates: differentiate with respect to the highest rate instead.
+  bool initial_rates = false;
+};
+
+/// A term and where its operands are found.
+struct BoundTerm {
+  std::shared_ptr<const Term> term;
+  std::vector<Operand> operands;
+};
+
+/// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
+/// by part (one per side and block in use), then component, then node: component-major, so that the inner loops
+/// run over nodes.
+class ElementEvaluator {
+ public:
+  ElementEvaluator(const IntegrationDomain& domain, std::vector<BoundTerm> terms);
+
+  /// One block on one side.
+  struct Part {
+    int side;
+    int block;
+    Block* states;
+    int nodes;       ///< per element
+    int components;
+    int offset;      ///< first row
+  };
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] int size() const { return size_; }
+
+  /// Evaluates element `index` at the present states.
+  void compute(int index, const TimePoint& at, bool with_tangent);
+  /// Evaluates the quantity given as the only term at the points of element `index`.
+  /// @return [point][Signature::values]
+  const std::vector<double>& compute_values(int index, const TimePoint& at);
+  [[nodiscard]] const Element& element() const { return element_; }
+  /// [row]
+  [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
+  /// Sum over the terms and points of the absolute contributions, [row]: the scale of the residual.
+  [[nodiscard]] const std::vector<double>& magnitude() const { return magnitude_; }
+  /// [row][column]
+  [[nodiscard]] const std::vector<double>& matrix() const { return matrix_; }
+
+ private:
+  struct BoundOperand {
+    int part;
+    int offset;  ///< first component within the block
+    int components;
+  };
+  struct Compiled {
+    std::shared_ptr<const Term> term;
+    const Signature* signature;
+    std::vector<BoundOperand> operands;
+    int inputs, outputs, columns;
+  };
+  /// Shape operators of a part at the element's points.
+  struct Operators {
+    const double* value = nullptr;  ///< [point][node]
+    std::vector<double> gradient;   ///< [point][direction][node]
+    std::vector<double> normal;     ///< [point][node]
+    std::vector<double> second_normal;
+    bool needs_gradient = false, needs_normal = false, needs_second_normal = false;
+    [[nodiscard]] const double* of(Shape shape) const;
+  };
+
+  void find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
+  void compute_operators();
+  void compute_normal_operators(int part);
+  void gather();
+  void compute_inputs(const Compiled& term);
+  void evaluate(const Compiled& term, const TimePoint& at, bool with_tangent);
+  void add_residual(const Compiled& term);
+  void add_tangent(const Compiled& term);
+
+  const IntegrationDomain* domain_;
+  int dim_ = 2;
+  std::vector<Part> parts_;
+  std::vector<Compiled> terms_;
+  std::vector<Operators> operators_;
+  int size_ = 0;
+  Element element_;
+  /// Nodal values of every level, [level][row].
+  std::vector<double> local_[5];
+  bool level_used_[5] = {true, false, false, false, false};
+  std::vector<double> inputs_, point_residual_, point_tangent_, columns_;
+  std::vector<double> residual_, magnitude_, matrix_;
+};
+
+}  // namespace seam

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/field/field.hpp"
+
+#include <fmt/ranges.h>
+
+#include "seam/base/diagnostics.hpp"
+
+namespace seam {
+
+Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns)
+    : name_(std::move(name)), mesh_(&mesh), unknowns_(std::move(unknowns)) {
+  for (const Unknown& unknown : unknowns_) {
+    int b = 0;
+    while (b < static_cast<int>(blocks_.size()) && blocks_[b].space->order() != unknown.order) ++b;
+    if (b == static_cast<int>(blocks_.size())) {
+      blocks_.emplace_back();
+      blocks_[b].space = std::make_unique<Space>(mesh, unknown.order);
+    }
+    places_.push_back({b, blocks_[b].size, unknown.components});
+    blocks_[b].size += unknown.components;
+    blocks_[b].time_order.insert(blocks_[b].time_order.end(), unknown.components, unknown.time_order);
+  }
+  for (Block& block : blocks_) resize(block);
+}
+
+/// Gives every node of the space a place in the block's arrays; new ones start active, free and at zero.
+void Field::resize(Block& block) {
+  const std::size_t n = static_cast<std::size_t>(block.space->nodes()) * block.size;
+  block.now.resize(n);
+  block.old.resize(n);
+  block.active.resize(block.space->nodes(), 1);
+  block.prescribed.resize(n, 0);
+  block.prescribed_value.resize(n, 0.0);
+}
+
+void Field::add_foreign(int block, const std::vector<Space::ForeignNode>& nodes) {
+  blocks_[block].space->add_foreign(nodes);
+  resize(blocks_[block]);
+}
+
+Field::Place Field::place(const std::string& unknown) const {
+  std::vector<std::string> names;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    if (unknowns_[u].name == unknown) return places_[u];
+    names.push_back(unknowns_[u].name);
+  }
+  throw Error(fmt::format("field '{}' has no unknown '{}'; it has: {}", name_, unknown, fmt::join(names, ", ")));
+}
+
+void Field::activate_cells(const std::vector<char>& cell_is_active) {
+  for (Block& block : blocks_) {
+    std::fill(block.active.begin(), block.active.end(), 0);
+    for (int c = 0; c < mesh_->cells(); ++c)
+      if (cell_is_active[c])
+        for (int a = 0; a < block.space->nodes_per_cell(); ++a) block.active[block.space->cell_nodes(c)[a]] = 1;
+    // The owner knows every cell of its nodes; a rank's outermost ghosts do not.
+    block.space->halo().update(block.active, 1);
+  }
+}
+
+}  // namespace seam

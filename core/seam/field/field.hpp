@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/space/space.hpp"
+
+namespace seam {
+
+/// What a physics declares of one of its unknowns.
+struct Unknown {
+  std::string name;
+  int components = 1;
+  int order = 1;       ///< of the Lagrange space: 1 or 2
+  int time_order = 0;  ///< highest rate that the physics reads: 0 (pressure), 1 (velocity), 2 (displacement)
+  std::string unit;
+};
+
+/// Nodal values of a block at one instant: [node][component], and their rates as the time scheme defines them.
+struct NodalState {
+  std::vector<double> value, rate, second_rate;
+  void resize(std::size_t n) {
+    value.resize(n);
+    rate.resize(n);
+    second_rate.resize(n);
+  }
+};
+
+/// All unknowns of a field that share a Lagrange space. Those of a node are contiguous. The states cover every
+/// node of the mesh, active or not, so that a changing set of active unknowns leaves them in place.
+struct Block {
+  std::unique_ptr<Space> space;
+  int size = 0;  ///< unknowns per node
+  NodalState now;
+  NodalState old;  ///< at the start of the step
+  std::vector<char> active;               ///< per local node: carries unknowns of the system
+  std::vector<char> prescribed;           ///< per unknown of a local node: its value is given,
+  std::vector<double> prescribed_value;   ///< namely this, to be reached by the end of the step
+  std::vector<int> time_order;            ///< per component
+};
+
+/// A field: unknowns on a mesh.
+class Field {
+ public:
+  /// Collective.
+  Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns);
+
+  struct Place {
+    int block;   ///< index into blocks()
+    int offset;  ///< first component within the block
+    int components;
+  };
+  [[nodiscard]] const std::string& name() const { return name_; }
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  [[nodiscard]] const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  /// @throws Error listing the field's unknowns
+  [[nodiscard]] Place place(const std::string& unknown) const;
+  [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
+  [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
+
+  /// Collective. Makes nodes of other ranks' cells known here, for an interface (see Space::add_foreign).
+  void add_foreign(int block, const std::vector<Space::ForeignNode>& nodes);
+
+  /// Makes a node active exactly where one of these local cells has it (collective: every rank names those of
+  /// its owned and ghost cells that are active).
+  void activate_cells(const std::vector<char>& cell_is_active);
+
+ private:
+  static void resize(Block& block);
+  std::string name_;
+  const Mesh* mesh_;
+  std::vector<Unknown> unknowns_;
+  std::vector<Place> places_;
+  std::vector<Block> blocks_;
+};
+
+}  // namespace seam

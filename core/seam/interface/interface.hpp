@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/assembly/element.hpp"
+#include "seam/term/term.hpp"
+
+namespace seam {
+
+/// Where two or more fields meet. A type of kind "interface": built from the scene, it yields the points on which
+/// coupling terms are integrated, each with a trace (field, cell, reference coordinates) on every side.
+class Interface {
+ public:
+  virtual ~Interface() = default;
+  /// Names of the fields on its sides, side 0 first.
+  [[nodiscard]] virtual std::vector<std::string> fields() const = 0;
+  /// Finds the pieces of the interface. Collective.
+  /// @param sides the fields, in the order of fields()
+  /// @param degree polynomial degree to integrate exactly
+  [[nodiscard]] virtual std::shared_ptr<const IntegrationDomain> build(const std::vector<Field*>& sides,
+                                                                       int degree) const = 0;
+};
+
+/// What a coupling may know of an interface: the names of its fields and of their unknowns, nothing of their
+/// classes.
+struct CouplingSides {
+  std::vector<const Field*> fields;
+};
+
+/// What happens where fields meet. A type of kind "coupling"; its schema must have the key `on`.
+class Coupling {
+ public:
+  virtual ~Coupling() = default;
+  struct SideTerm {
+    std::shared_ptr<const Term> term;
+    std::vector<Operand> operands;
+  };
+  /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
+  [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
+};
+
+}  // namespace seam

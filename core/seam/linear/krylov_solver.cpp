@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/linear/krylov_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <BelosBlockGmresSolMgr.hpp>
+#include <BelosTpetraAdapter.hpp>
+
+#include "seam/base/stopwatch.hpp"
+#include "seam/linear/preconditioner.hpp"
+
+namespace seam {
+
+struct KrylovSolver::Preconditioner {
+  Teuchos::RCP<TpetraMatrix> matrix;
+  Teuchos::RCP<TpetraOperator> apply;
+  long long pattern_version = -1;
+  int first_iterations = 0;  ///< of the solve right after it was built
+  int last_iterations = 0;
+};
+
+KrylovSolver::KrylovSolver(const Parameters& p)
+    : tolerance_(p.number("tolerance")),
+      maximum_iterations_(static_cast<int>(p.integer("maximum_iterations"))),
+      restart_(static_cast<int>(p.integer("restart"))),
+      keep_(p.number("keep")),
+      multigrid_(p.text("preconditioner") == "multigrid") {
+  acceptable_residual_ = 100 * tolerance_;
+}
+
+KrylovSolver::~KrylovSolver() = default;
+
+Schema KrylovSolver::schema() {
+  Schema s("Flexible GMRES with algebraic multigrid or incomplete factorisation per field block, for large systems.");
+  s.number("tolerance", "Relative residual to reach").otherwise("1e-9").above(0).below(1);
+  s.integer("maximum_iterations", "Iterations after which the solve has failed").otherwise("1000").at_least(1);
+  s.integer("restart", "Size of the Krylov space").otherwise("150").at_least(2);
+  s.choice("preconditioner", "Per field block: multigrid where the block suits it, or ilu everywhere", {"multigrid", "ilu"})
+      .otherwise("multigrid");
+  s.number("keep", "The preconditioner is kept while iterations stay below this multiple of its first solve's; 0: never")
+      .otherwise("1.5")
+      .at_least(0);
+  return s;
+}
+
+bool KrylovSolver::worth_keeping(const Matrix& a) const {
+  return preconditioner_ && preconditioner_->pattern_version == a.pattern_version &&
+         preconditioner_->last_iterations <= keep_ * preconditioner_->first_iterations;
+}
+
+void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+                              std::vector<double>& x, SolveReport& report) {
+  const Stopwatch watch;
+  report.new_factorisation = !worth_keeping(a);
+  if (report.new_factorisation) {
+    preconditioner_ = std::make_unique<Preconditioner>();
+    preconditioner_->matrix = tpetra_view(a);
+    preconditioner_->apply = make_block_gauss_seidel(preconditioner_->matrix, a, blocks, multigrid_);
+    preconditioner_->pattern_version = a.pattern_version;
+  }
+  report.setup_seconds = watch.seconds();
+
+  const auto& matrix = preconditioner_->matrix;
+  const auto solution = tpetra_view(matrix->getDomainMap(), x.data());
+  const auto right_side = tpetra_view(matrix->getRangeMap(), const_cast<double*>(b.data()));
+  auto problem = Teuchos::rcp(new Belos::LinearProblem<double, TpetraVector, TpetraOperator>(matrix, solution, right_side));
+  problem->setRightPrec(preconditioner_->apply);
+  problem->setProblem();
+  auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
+  parameters->set("Flexible Gmres", true);
+  parameters->set("Convergence Tolerance", tolerance_);
+  parameters->set("Maximum Iterations", maximum_iterations_);
+  parameters->set("Num Blocks", restart_);
+  parameters->set("Maximum Restarts", maximum_iterations_ / restart_ + 1);
+  parameters->set("Explicit Residual Scaling", "Norm of RHS");
+  parameters->set("Implicit Residual Scaling", "Norm of RHS");
+  parameters->set("Verbosity", 0);
+  Belos::BlockGmresSolMgr<double, TpetraVector, TpetraOperator> gmres(problem, parameters);
+  gmres.solve();
+  report.iterations = gmres.getNumIters();
+  preconditioner_->last_iterations = report.iterations;
+  if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);
+}
+
+std::vector<std::vector<double>> rigid_body_modes(const EquationBlock& block) {
+  const int dim = block.dimension, size = block.unknowns_per_node, nodes = block.count / size;
+  std::vector<std::vector<double>> modes(dim == 2 ? 3 : 6, std::vector<double>(block.count, 0.0));
+  for (int n = 0; n < nodes; ++n) {
+    const double* x = &block.coordinates[static_cast<std::size_t>(n) * dim];
+    const auto at = [&](int mode, int component) -> double& { return modes[mode][n * size + component]; };
+    for (int d = 0; d < dim; ++d) at(d, d) = 1;
+    if (dim == 2) {
+      at(2, 0) = -x[1];
+      at(2, 1) = x[0];
+      continue;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      at(3 + axis, (axis + 1) % 3) = -x[(axis + 2) % 3];
+      at(3 + axis, (axis + 2) % 3) = x[(axis + 1) % 3];
+    }
+  }
+  return modes;
+}
+
+}  // namespace seam

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/linear/linear_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "seam/base/stopwatch.hpp"
+#include "seam/linear/krylov_solver.hpp"
+#include "seam/linear/mumps_solver.hpp"
+#include "seam/plugin/registry.hpp"
+
+namespace seam {
+
+SolveReport LinearSolver::solve(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+                                std::vector<double>& x) {
+  SolveReport report;
+  x.assign(a.rows, 0.0);
+  const double size = norm(a.communicator, b);
+  if (size == 0.0) return report;
+  const Stopwatch watch;
+  solve_into(a, blocks, b, x, report);
+  report.solve_seconds = watch.seconds() - report.setup_seconds;
+  // Never trust a solver's own word: some return wrong solutions without an error.
+  std::vector<double> residual;
+  multiply(a, x, residual);
+  for (int i = 0; i < a.rows; ++i) residual[i] = b[i] - residual[i];
+  report.relative_residual = norm(a.communicator, residual) / size;
+  if (!(report.relative_residual <= acceptable_residual_))
+    throw SingularMatrix(fmt::format("the linear solve left a relative residual of {:.2e} (acceptable: {:.0e}) after {} "
+                                     "iterations: the system is singular or too ill-conditioned for this solver",
+                                     report.relative_residual, acceptable_residual_, report.iterations),
+                         {});
+  return report;
+}
+
+double norm(const Communicator& communicator, const std::vector<double>& x) {
+  double square = 0;
+  for (const double v : x) square += v * v;
+  return std::sqrt(communicator.sum(square));
+}
+
+void register_linear_solvers(Registry& registry) {
+  registry.add<LinearSolver>("linear_solver", "direct", MumpsSolver::schema(), [](const Parameters& p, const Registry&) {
+    return std::make_unique<MumpsSolver>(p);
+  });
+  registry.add<LinearSolver>("linear_solver", "krylov", KrylovSolver::schema(), [](const Parameters& p, const Registry&) {
+    return std::make_unique<KrylovSolver>(p);
+  });
+}
+
+}  // namespace seam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/base/diagnostics.hpp"
+#include "seam/linear/matrix.hpp"
+
+namespace seam {
+
+class Registry;
+
+/// What a solve took.
+struct SolveReport {
+  double relative_residual = 0;  ///< |b - A x| / |b|, computed from the matrix after the solve
+  int iterations = 0;            ///< 0 for a direct solve
+  bool new_factorisation = true;
+  double setup_seconds = 0;
+  double solve_seconds = 0;
+};
+
+/// The matrix has no inverse. `equations` are those the factorisation failed at, as far as it knows.
+class SingularMatrix : public Error {
+ public:
+  SingularMatrix(const std::string& message, std::vector<long long> at) : Error(message), equations(std::move(at)) {}
+  std::vector<long long> equations;
+};
+
+/// Solves A x = b. A type of kind "linear_solver".
+class LinearSolver {
+ public:
+  virtual ~LinearSolver() = default;
+  /// Collective. @param b, x [owned row]
+  /// @throws SingularMatrix, or Error when the true residual stays above the tolerance
+  SolveReport solve(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+                    std::vector<double>& x);
+
+ protected:
+  virtual void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+                          std::vector<double>& x, SolveReport& report) = 0;
+  /// A relative residual above this is an error.
+  double acceptable_residual_ = 1e-6;
+};
+
+/// y = A x. Collective. @param x, y [owned row]
+void multiply(const Matrix& a, const std::vector<double>& x, std::vector<double>& y);
+
+/// Euclidean norm over all ranks. Collective.
+double norm(const Communicator& communicator, const std::vector<double>& x);
+
+/// Registers "direct" and "krylov".
+void register_linear_solvers(Registry& registry);
+
+}  // namespace seam

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/linear/mumps_solver.hpp"
+
+#include <dmumps_c.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "seam/base/stopwatch.hpp"
+
+namespace seam {
+namespace {
+
+// MUMPS' job codes.
+constexpr int job_begin = -1, job_end = -2, job_analyse = 1, job_factorise = 2, job_solve = 3;
+
+}  // namespace
+
+struct MumpsSolver::Instance {
+  DMUMPS_STRUC_C mumps{};
+  std::vector<int> row, column;
+  long long pattern_version = -1;
+  bool begun = false;
+
+  // MUMPS' manual counts its control arrays from 1.
+  int& control(int i) { return mumps.icntl[i - 1]; }
+  [[nodiscard]] int info(int i) const { return mumps.infog[i - 1]; }
+
+  void run(int job) {
+    mumps.job = job;
+    dmumps_c(&mumps);
+  }
+  ~Instance() {
+    int finalised = 0;
+    MPI_Finalized(&finalised);
+    if (begun && !finalised) run(job_end);
+  }
+};
+
+MumpsSolver::MumpsSolver() : instance_(std::make_unique<Instance>()) {}
+MumpsSolver::MumpsSolver(const Parameters&) : MumpsSolver() {}
+MumpsSolver::~MumpsSolver() = default;
+
+Schema MumpsSolver::schema() {
+  return Schema("Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
+}
+
+void MumpsSolver::analyse(const Matrix& a) {
+  Instance& m = *instance_;
+  if (!m.begun) {
+    m.mumps.par = 1;
+    m.mumps.sym = 0;
+    m.mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(a.communicator.handle()));
+    m.run(job_begin);
+    m.begun = true;
+    for (const int stream : {1, 2, 3}) m.control(stream) = -1;  // silent
+    m.control(4) = 0;
+    m.control(18) = 3;   // distributed entries
+    m.control(14) = 40;  // % more memory than estimated: pivoting on saddle points needs it
+    m.control(24) = 1;   // detect null pivots, so that they can be named
+  }
+  m.row.resize(a.entries());
+  m.column.resize(a.entries());
+  for (int r = 0; r < a.rows; ++r)
+    for (std::size_t k = a.row_start[r]; k < a.row_start[r + 1]; ++k) {
+      m.row[k] = static_cast<int>(a.first_row + r + 1);
+      m.column[k] = static_cast<int>(a.column_global[a.column[k]] + 1);
+    }
+  m.mumps.n = static_cast<int>(a.global_rows);
+  m.mumps.nnz_loc = static_cast<MUMPS_INT8>(a.entries());
+  m.mumps.irn_loc = m.row.data();
+  m.mumps.jcn_loc = m.column.data();
+  m.mumps.a_loc = const_cast<double*>(a.value.data());
+  m.run(job_analyse);
+  if (m.info(1) < 0)
+    throw Error(fmt::format("MUMPS could not analyse the matrix of {} unknowns: error {} ({})", a.global_rows, m.info(1),
+                            m.info(2)));
+  m.pattern_version = a.pattern_version;
+}
+
+void MumpsSolver::factorise(const Matrix& a) {
+  Instance& m = *instance_;
+  m.mumps.a_loc = const_cast<double*>(a.value.data());
+  m.run(job_factorise);
+  // -8, -9: the work space was too small for the pivoting that turned out to be needed.
+  for (int attempt = 0; attempt < 4 && (m.info(1) == -8 || m.info(1) == -9); ++attempt) {
+    m.control(14) *= 2;
+    m.run(job_factorise);
+  }
+  if (m.info(1) == -10) throw SingularMatrix("the matrix is numerically singular", {});
+  if (m.info(1) == -13)
+    throw Error(fmt::format("MUMPS ran out of memory factorising {} unknowns: use `linear: krylov`", a.global_rows));
+  if (m.info(1) < 0)
+    throw Error(fmt::format("MUMPS could not factorise the matrix of {} unknowns: error {} ({})", a.global_rows,
+                            m.info(1), m.info(2)));
+  int null_pivots = m.info(28);
+  if (null_pivots > 0) {
+    std::vector<long long> equations;
+    if (a.communicator.rank() == 0)
+      for (int k = 0; k < std::min(null_pivots, 20); ++k) equations.push_back(m.mumps.pivnul_list[k] - 1);
+    equations = a.communicator.gather_all(equations);
+    throw SingularMatrix(fmt::format("the matrix is singular: {} null pivots", null_pivots), equations);
+  }
+}
+
+void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&, const std::vector<double>& b,
+                             std::vector<double>& x, SolveReport& report) {
+  if (a.global_rows >= 2147483647LL) throw Error("the direct solver is limited to 2^31 unknowns: use `linear: krylov`");
+  const Stopwatch watch;
+  if (instance_->pattern_version != a.pattern_version) analyse(a);
+  factorise(a);
+  report.setup_seconds = watch.seconds();
+
+  // Right-hand side and solution pass through rank 0: small beside the factors.
+  std::vector<double> all = a.communicator.gather_all(b);
+  Instance& m = *instance_;
+  m.mumps.rhs = all.data();
+  m.run(job_solve);
+  if (m.info(1) < 0) throw Error(fmt::format("MUMPS could not solve: error {} ({})", m.info(1), m.info(2)));
+  MPI_Bcast(all.data(), static_cast<int>(all.size()), MPI_DOUBLE, 0, a.communicator.handle());
+  std::copy_n(all.begin() + a.first_row, a.rows, x.begin());
+}
+
+}  // namespace seam

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "seam/linear/linear_solver.hpp"
+#include "seam/scene/parameters.hpp"
+#include "seam/scene/schema.hpp"
+
+namespace seam {
+
+/// Distributed sparse LU factorisation by MUMPS. The symbolic analysis is kept while the pattern stays.
+class MumpsSolver final : public LinearSolver {
+ public:
+  explicit MumpsSolver(const Parameters& parameters);
+  MumpsSolver();
+  ~MumpsSolver() override;
+  MumpsSolver(const MumpsSolver&) = delete;
+  MumpsSolver& operator=(const MumpsSolver&) = delete;
+  static Schema schema();
+
+ protected:
+  void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+                  std::vector<double>& x, SolveReport& report) override;
+
+ private:
+  struct Instance;
+  void analyse(const Matrix& a);
+  void factorise(const Matrix& a);
+  std::unique_ptr<Instance> instance_;
+};
+
+}  // namespace seam

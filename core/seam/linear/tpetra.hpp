@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_MultiVector.hpp>
+
+#include "seam/linear/matrix.hpp"
+
+// Heavy: include only in the few files that hand the system to Trilinos.
+namespace seam {
+
+using TpetraMatrix = Tpetra::CrsMatrix<double, int, long long>;
+using TpetraVector = Tpetra::MultiVector<double, int, long long>;
+using TpetraMap = Tpetra::Map<int, long long>;
+using TpetraOperator = Tpetra::Operator<double, int, long long>;
+
+/// A Tpetra matrix on the arrays of `a`, which must outlive it and keep its pattern.
+Teuchos::RCP<TpetraMatrix> tpetra_view(const Matrix& a);
+
+/// A vector that shares the memory of `x`.
+Teuchos::RCP<TpetraVector> tpetra_view(const Teuchos::RCP<const TpetraMap>& map, double* x);
+
+}  // namespace seam

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/mesh/input/vtu_xml.hpp"
+
+#include <algorithm>
+
+#include "seam/base/diagnostics.hpp"
+
+namespace seam {
+
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
+
+class Scanner {
+ public:
+  Scanner(std::string_view text, const std::string& name) : text_(text), name_(name) {}
+
+  std::vector<XmlTag> scan() {
+    std::vector<XmlTag> tags;
+    while (true) {
+      advance(std::min(text_.find('<', at_), text_.size()));
+      if (at_ == text_.size()) return tags;
+      if (skip("<!--", "-->") || skip("<?", "?>")) continue;
+      bool closed = false;
+      XmlTag tag = read_tag(closed);
+      const bool appended = tag.name == "AppendedData" && !closed;
+      tag.text = text_.substr(at_, appended ? text_.npos : text_.find('<', at_) - at_);
+      tags.push_back(std::move(tag));
+      if (closed) tags.push_back({"/" + tags.back().name, {}, {}, line_});
+      if (appended) return tags;
+    }
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw Error(Location{name_, line_, 0}, message);
+  }
+
+  void advance(std::size_t to) {
+    line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(at_),
+                                         text_.begin() + static_cast<std::ptrdiff_t>(to), '\n'));
+    at_ = to;
+  }
+  bool skip(std::string_view open, std::string_view close) {
+    if (text_.substr(at_, open.size()) != open) return false;
+    const std::size_t end = text_.find(close, at_ + open.size());
+    if (end == text_.npos) fail("the XML ends in a comment or a declaration; the file seems to be truncated");
+    advance(end + close.size());
+    return true;
+  }
+
+  char peek() {
+    if (at_ >= text_.size()) fail("the XML ends within a tag; the file seems to be truncated");
+    return text_[at_];
+  }
+  void skip_blank() {
+    while (is_blank(peek())) advance(at_ + 1);
+  }
+  std::string word() {
+    const std::size_t from = at_;
+    while (!is_blank(peek()) && peek() != '>' && peek() != '=' && !(peek() == '/' && at_ > from)) ++at_;
+    return std::string(text_.substr(from, at_ - from));
+  }
+
+  /// Reads from '<' to behind '>'.
+  XmlTag read_tag(bool& closed) {
+    XmlTag tag;
+    tag.line = line_;
+    ++at_;
+    tag.name = word();
+    for (skip_blank(); peek() != '>'; skip_blank()) {
+      if (peek() == '/') {
+        closed = true;
+        ++at_;
+        continue;
+      }
+      const std::string key = word();
+      skip_blank();
+      if (key.empty() || peek() != '=') fail("this XML tag has an attribute without a value");
+      ++at_;
+      skip_blank();
+      const char quote = peek();
+      if (quote != '"' && quote != '\'') fail("the value of attribute '" + key + "' is not in quotes");
+      const std::size_t end = text_.find(quote, at_ + 1);
+      if (end == text_.npos) fail("the XML ends within an attribute; the file seems to be truncated");
+      tag.attributes[key] = std::string(text_.substr(at_ + 1, end - at_ - 1));
+      advance(end + 1);
+    }
+    ++at_;
+    return tag;
+  }
+
+  std::string_view text_;
+  const std::string& name_;
+  std::size_t at_ = 0;
+  int line_ = 1;
+};
+
+}  // namespace
+
+std::vector<XmlTag> scan_vtk_xml(std::string_view text, const std::string& name) {
+  return Scanner(text, name).scan();
+}
+
+}  // namespace seam

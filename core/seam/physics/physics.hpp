@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/base/diagnostics.hpp"
+#include "seam/field/field.hpp"
+#include "seam/scene/expression.hpp"
+#include "seam/term/term.hpp"
+
+namespace seam {
+
+/// Volume, centre and second moments about the centre of a body, from its mesh.
+struct Moments {
+  double volume = 0;       ///< m^3 (2D: m^2)
+  double centre[3] = {};   ///< m
+  double second[3][3] = {};  ///< integral of (x - centre)_i (x - centre)_j, m^5 (2D: m^4)
+};
+
+/// What a physics hands to the core when a scene is built. Names of unknowns are the field's own; names of
+/// boundaries are the mesh's.
+class FieldSetup {
+ public:
+  virtual ~FieldSetup() = default;
+  [[nodiscard]] virtual int dimension() const = 0;
+  [[nodiscard]] virtual const std::string& field_name() const = 0;
+
+  /// Adds a term over all cells. @param operands the unknowns the kernel's operands 0, 1, ... stand for
+  virtual void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
+  virtual void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
+                                 std::vector<std::string> operands) = 0;
+  /// Adds a term over the faces between two cells; its operands name a side (0 or 1) each.
+  virtual void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) = 0;
+  /// Prescribes a component of an unknown on a boundary, at all times.
+  /// @param where place in the scene, for the error when two conditions claim the same unknown
+  virtual void prescribe(const std::string& boundary, const std::string& unknown, int component, Expression value,
+                         const Location& where) = 0;
+  virtual void set_initial(const std::string& unknown, int component, Expression value) = 0;
+  virtual void set_initial_rate(const std::string& unknown, int component, Expression value) = 0;
+
+  /// A quantity for pictures and probes, evaluated at nodes (averaged over the cells that meet there).
+  virtual void add_output(const std::string& name, std::shared_ptr<const Term> quantity,
+                          std::vector<std::string> operands) = 0;
+  /// A quantity integrated over the field and written as a time series: an energy, a mass, a flow.
+  virtual void add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
+                            std::vector<std::string> operands) = 0;
+  /// Geometry of the body, for a physics with Support::point.
+  [[nodiscard]] virtual Moments moments() const = 0;
+};
+
+/// Where a field's unknowns live.
+enum class Support {
+  mesh,   ///< on the nodes of its mesh
+  point,  ///< on one point, the centre of its mesh: a rigid body
+};
+
+/// A physics: what a plugin registers under the kind "field". Its schema must have the key `mesh`.
+class Physics {
+ public:
+  virtual ~Physics() = default;
+  [[nodiscard]] virtual Support support() const { return Support::mesh; }
+  /// May be empty: a body with given motion.
+  [[nodiscard]] virtual std::vector<Unknown> unknowns(int dimension) const = 0;
+  virtual void build(FieldSetup& setup) const = 0;
+  /// Name of the unknown or output that displaces the mesh in pictures, "" for none.
+  [[nodiscard]] virtual std::string displacement() const { return ""; }
+  /// For Support::point: how a point of the body moves.
+  /// @param motion the unknowns of the point, in the order of unknowns()
+  /// @param arm reference position relative to the body's centre, [dimension]
+  /// @param displacement result, [dimension]
+  virtual void displace(int dimension, const double* motion, const double* arm, double* displacement) const {
+    (void)motion, (void)arm;
+    for (int d = 0; d < dimension; ++d) displacement[d] = 0;
+  }
+};
+
+}  // namespace seam

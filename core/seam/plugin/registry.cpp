@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/plugin/registry.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace seam {
+
+const Registry::Entry* Registry::find(const std::string& kind, const std::string& name) const {
+  const auto it = std::find_if(entries_.begin(), entries_.end(),
+                               [&](const Entry& e) { return e.kind == kind && e.name == name; });
+  return it == entries_.end() ? nullptr : &*it;
+}
+
+std::vector<std::string> Registry::names(const std::string& kind) const {
+  std::vector<std::string> result;
+  for (const Entry& entry : entries_) {
+    if (entry.kind == kind) result.push_back(entry.name);
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+void Registry::remove_plugin(const std::string& name) {
+  std::erase_if(entries_, [&](const Entry& e) { return e.plugin == name; });
+}
+
+void Registry::insert(Entry entry) {
+  if (const Entry* other = find(entry.kind, entry.name)) {
+    throw Error(fmt::format(
+        "{} '{}' is registered by plugin '{}' and by plugin '{}'; a scene can load only one of them",
+        entry.kind, entry.name, other->plugin, entry.plugin));
+  }
+  if (entry.kind.empty() || entry.name.empty()) {
+    throw Error(fmt::format("plugin '{}' registers a type without {}", entry.plugin,
+                            entry.kind.empty() ? "kind" : "name"));
+  }
+  if (entry.schema.find("type")) {
+    throw Error(fmt::format("{} '{}' declares a key 'type', which selects the type and cannot be a parameter",
+                            entry.kind, entry.name));
+  }
+  entries_.push_back(std::move(entry));
+}
+
+const Registry::Entry& Registry::require(const std::string& kind, const std::string& name,
+                                         std::type_index interface, const Location& where) const {
+  const Entry* entry = find(kind, name);
+  if (!entry) {
+    throw Error(where,
+                fmt::format("no {} is called '{}'; known: {}", kind, name, fmt::join(names(kind), ", ")));
+  }
+  if (entry->interface != interface) {
+    throw Error(
+        where,
+        fmt::format("{} '{}' of plugin '{}' implements {}, expected {}; the plugin was written against "
+                    "another version of this interface",
+                    kind, name, entry->plugin, entry->interface.name(), interface.name()));
+  }
+  return *entry;
+}
+
+}  // namespace seam

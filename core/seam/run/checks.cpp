@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "seam/base/diagnostics.hpp"
+
+namespace seam {
+namespace {
+
+/// Reads "0.1%" (relative) or "1e-3" (absolute).
+double tolerance(const Parameters& check, double reference) {
+  const std::string& text = check.text("within");
+  std::size_t used = 0;
+  double value = 0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  const std::string rest = used == 0 ? "?" : text.substr(used);
+  if ((rest != "" && rest != "%") || value < 0)
+    throw Error(check.where("within"),
+                fmt::format("`within: {}` is no deviation; write it as 0.1% or as a plain number", text));
+  return rest == "%" ? value / 100 * std::abs(reference) : value;
+}
+
+CheckResult evaluate(const Parameters& check, const Results& results) {
+  CheckResult result;
+  result.that = check.text("that");
+  result.source = check.text("source");
+  const double at = check.has("at") ? check.number("at") : std::numeric_limits<double>::max();
+  try {
+    result.value = results.value(result.that, at);
+  } catch (const Error& error) {
+    throw Error(check.where("that"), error.what());
+  }
+  result.passed = std::isfinite(result.value);
+  std::vector<std::string> expected;
+  if (check.has("is")) {
+    const double reference = check.number("is");
+    if (!check.has("within")) throw Error(check.where("is"), "a check with `is` needs `within`");
+    const double allowed = tolerance(check, reference);
+    result.deviation = (result.value - reference) / (reference == 0 ? 1 : std::abs(reference));
+    result.passed = result.passed && std::abs(result.value - reference) <= allowed;
+    expected.push_back(fmt::format("{:.7g} within {}", reference, check.text("within")));
+  }
+  if (check.has("at_least")) {
+    result.passed = result.passed && result.value >= check.number("at_least");
+    expected.push_back(fmt::format(">= {:.4g}", check.number("at_least")));
+  }
+  if (check.has("at_most")) {
+    result.passed = result.passed && result.value <= check.number("at_most");
+    expected.push_back(fmt::format("<= {:.4g}", check.number("at_most")));
+  }
+  if (expected.empty()) throw Error(check.where(), "a check needs `is` with `within`, `at_least` or `at_most`");
+  for (const std::string& e : expected) result.expected += (result.expected.empty() ? "" : ", ") + e;
+  return result;
+}
+
+}  // namespace
+
+std::vector<CheckResult> evaluate_checks(const std::vector<Parameters>& checks, const Results& results) {
+  std::vector<CheckResult> all;
+  for (const Parameters& check : checks) all.push_back(evaluate(check, results));
+  return all;
+}
+
+std::string check_table(const std::vector<CheckResult>& checks) {
+  std::size_t name = 5, expected = 8;
+  for (const CheckResult& c : checks) {
+    name = std::max(name, c.that.size());
+    expected = std::max(expected, c.expected.size());
+  }
+  std::string table = fmt::format("  {:{}}  {:>14}  {:{}}  {:>10}  source\n", "check", name + 6, "value", "expected",
+                                  expected, "deviation");
+  for (const CheckResult& c : checks)
+    table += fmt::format("  {}  {:{}}  {:>14.7g}  {:{}}  {:>+10.2e}  {}\n", c.passed ? "ok  " : "FAIL", c.that, name,
+                         c.value, c.expected, expected, c.deviation, c.source);
+  return table;
+}
+
+}  // namespace seam

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "seam/run/results.hpp"
+#include "seam/scene/parameters.hpp"
+
+namespace seam {
+
+/// Outcome of one of a scene's checks.
+struct CheckResult {
+  std::string that;
+  double value = 0;
+  std::string expected;   ///< "13.772 within 0.1%"
+  double deviation = 0;   ///< from `is`, relative unless `is` is 0
+  bool passed = false;
+  std::string source;
+};
+
+/// Compares the results of a run with the `checks` of its scene.
+/// @throws Error naming the place of a check whose quantity the run does not have
+std::vector<CheckResult> evaluate_checks(const std::vector<Parameters>& checks, const Results& results);
+
+/// A table with one line per check.
+std::string check_table(const std::vector<CheckResult>& checks);
+
+}  // namespace seam

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/evaluate.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "seam/assembly/evaluator.hpp"
+
+namespace seam {
+namespace {
+
+/// The unknown itself (or its gradient) as a quantity of any number of components.
+class UnknownQuantity final : public Term {
+ public:
+  UnknownQuantity(int components, Shape shape, int dimension)
+      : size_(components * rows(shape, dimension)), signature_{{components}, {Slot{0, shape, Level::now}}, {}, {}, size_} {}
+  [[nodiscard]] const Signature& signature(int) const override { return signature_; }
+  void evaluate(const PointBatch& points, double* values, double*) const override {
+    std::copy_n(points.inputs, static_cast<std::ptrdiff_t>(points.count) * size_, values);
+  }
+
+ private:
+  int size_;
+  Signature signature_;
+};
+
+BoundTerm bind(const NamedQuantity& quantity) {
+  BoundTerm bound{quantity.term, {}};
+  for (const std::string& name : quantity.operands) bound.operands.push_back({0, name});
+  return bound;
+}
+
+/// Chosen points in chosen cells.
+class SampleDomain final : public IntegrationDomain {
+ public:
+  SampleDomain(const FieldEntry& entry, std::vector<int> cells, const std::vector<double>& reference)
+      : entry_(entry), cells_(std::move(cells)) {
+    const Mesh& mesh = entry.field->mesh();
+    const int dim = std::max(1, topology(mesh.type()).dimension);
+    const int points = mesh.type() == CellType::point ? 1 : static_cast<int>(reference.size()) / dim;
+    for (int order = 1; order <= 2; ++order) tabulate(mesh.type(), order, reference.data(), points, false, tables_[order - 1]);
+  }
+  [[nodiscard]] int size() const override { return static_cast<int>(cells_.size()); }
+  [[nodiscard]] std::vector<Field*> fields() const override { return {entry_.field.get()}; }
+  void fill(int index, Element& element) const override {
+    element.dimension = entry_.field->mesh().dimension();
+    element.points = tables_[0].points;
+    element.sides.resize(1);
+    attach_cell(element.sides[0], *entry_.field, cells_[index]);
+    element.sides[0].table[0] = &tables_[0];
+    element.sides[0].table[1] = &tables_[1];
+    element.sides[0].map_geometry();
+    element.weight.assign(element.points, 1.0);
+    element.normal.clear();
+    element.cell_size.assign(element.points, element.sides[0].diameter);
+  }
+  [[nodiscard]] const int* nodes(int index, int, int block) const override {
+    return entry_.field->blocks()[block].space->cell_nodes(cells_[index]);
+  }
+  [[nodiscard]] std::string description() const override { return "points of field '" + entry_.name + "'"; }
+
+ private:
+  const FieldEntry& entry_;
+  std::vector<int> cells_;
+  ShapeTable tables_[2];
+};
+
+std::vector<double> integrate(const IntegrationDomain& domain, const NamedQuantity& quantity, const TimePoint& at,
+                              const Communicator& communicator) {
+  ElementEvaluator evaluator(domain, {bind(quantity)});
+  std::vector<double> sum(quantity.components, 0.0);
+  for (int e = 0; e < domain.size(); ++e) {
+    const auto& values = evaluator.compute_values(e, at);
+    for (int q = 0; q < evaluator.element().points; ++q)
+      for (int c = 0; c < quantity.components; ++c)
+        sum[c] += evaluator.element().weight[q] * values[static_cast<std::size_t>(q) * quantity.components + c];
+  }
+  communicator.sum(sum);
+  return sum;
+}
+
+int highest_order(const FieldEntry& entry) {
+  int order = 1;
+  for (const Block& block : entry.field->blocks()) order = std::max(order, block.space->order());
+  return order;
+}
+
+}  // namespace
+
+NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
+  const int dim = entry.field->mesh().dimension();
+  std::vector<std::string> known;
+  for (const Unknown& unknown : entry.field->unknowns()) {
+    if (unknown.name == name)
+      return {std::make_shared<UnknownQuantity>(unknown.components, Shape::value, dim), {name}, unknown.components};
+    known.push_back(unknown.name);
+  }
+  for (const FieldQuantity& output : entry.outputs) {
+    if (output.name == name) return {output.term, output.operands, output.term->signature(dim).values};
+    known.push_back(output.name);
+  }
+  const std::string nearest = nearest_name(name, known);
+  throw Error(fmt::format("field '{}' has no quantity '{}'{}; it has: {}", entry.name, name,
+                          nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), fmt::join(known, ", ")));
+}
+
+std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, const NamedQuantity& quantity,
+                                 const TimePoint& at) {
+  const Mesh& mesh = entry.field->mesh();
+  const CellTopology& cell = topology(mesh.type());
+  std::vector<int> cells(mesh.cells());
+  std::iota(cells.begin(), cells.end(), 0);
+  const int per_cell = space.nodes_per_cell(), components = quantity.components;
+  const std::vector<double> reference(
+      cell.node_coordinates.begin(),
+      cell.node_coordinates.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(per_cell) * cell.dimension,
+                                                               static_cast<std::ptrdiff_t>(cell.node_coordinates.size())));
+  const SampleDomain domain(entry, cells, reference);
+  ElementEvaluator evaluator(domain, {bind(quantity)});
+  std::vector<double> sum(static_cast<std::size_t>(space.nodes()) * components, 0.0);
+  std::vector<int> count(space.nodes(), 0);
+  for (int c = 0; c < mesh.cells(); ++c) {
+    const auto& values = evaluator.compute_values(c, at);
+    for (int a = 0; a < per_cell; ++a) {
+      const int node = space.cell_nodes(c)[a];
+      ++count[node];
+      for (int k = 0; k < components; ++k)
+        sum[static_cast<std::size_t>(node) * components + k] += values[static_cast<std::size_t>(a) * components + k];
+    }
+  }
+  for (int node = 0; node < space.nodes(); ++node)
+    for (int k = 0; k < components && count[node] > 0; ++k)
+      sum[static_cast<std::size_t>(node) * components + k] /= count[node];
+  return sum;
+}
+
+std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity, const TimePoint& at) {
+  const CellDomain cells(*entry.field, 2 * highest_order(entry));
+  return integrate(cells, quantity, at, entry.field->mesh().communicator());
+}
+
+std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,
+                                      const NamedQuantity& quantity, const TimePoint& at) {
+  std::vector<double> sum(quantity.components, 0.0);
+  for (const std::string& name : boundaries) {
+    const BoundaryDomain faces(*entry.field, name, 2 * highest_order(entry));
+    const auto part = integrate(faces, quantity, at, entry.field->mesh().communicator());
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += part[c];
+  }
+  return sum;
+}
+
+ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& position, const Location& where) {
+  const Mesh& mesh = entry.field->mesh();
+  const Communicator& communicator = mesh.communicator();
+  if (mesh.type() == CellType::point) {
+    cell_ = mesh.owned_cells() > 0 ? 0 : -1;
+    return;
+  }
+  const int dim = mesh.dimension();
+  // How far outside the reference cell the point lies, for the best owned cell.
+  double best = std::numeric_limits<double>::max();
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    ElementSide side;
+    attach_cell(side, *entry.field, c);
+    double distance = 0;
+    for (int d = 0; d < dim; ++d) distance += std::pow(side.geometry[d] - position[d], 2);
+    if (std::sqrt(distance) > 2 * side.diameter) continue;
+    const bool simplex = mesh.type() == CellType::triangle || mesh.type() == CellType::tetrahedron;
+    std::vector<double> reference(dim, simplex ? 1.0 / (dim + 1) : 0.5);
+    try {
+      invert_map(side, position.data(), reference.data());
+    } catch (const Error&) {
+      continue;  // far outside a curved cell, where its map has no inverse
+    }
+    double outside = 0, sum = 0;
+    for (int d = 0; d < dim; ++d) {
+      outside = std::max({outside, -reference[d], simplex ? 0.0 : reference[d] - 1});
+      sum += reference[d];
+    }
+    if (simplex) outside = std::max(outside, sum - 1);
+    if (outside < best) {
+      best = outside;
+      cell_ = c;
+      reference_ = reference;
+    }
+  }
+  // A point on a border between ranks belongs to the lowest rank that has it.
+  const double overall = communicator.min(best);
+  if (overall > 1e-6)
+    throw Error(where, fmt::format("the point ({}) lies outside the mesh '{}' of field '{}'", fmt::join(position, ", "),
+                                   mesh.name(), entry.name));
+  const double mine = best <= overall + 1e-10 ? communicator.rank() : communicator.size();
+  if (communicator.min(mine) != communicator.rank()) cell_ = -1;
+}
+
+std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQuantity& quantity,
+                                         const TimePoint& at) const {
+  std::vector<double> result(quantity.components, 0.0);
+  if (cell_ >= 0) {
+    const SampleDomain domain(entry, {cell_}, reference_);
+    ElementEvaluator evaluator(domain, {bind(quantity)});
+    const auto& values = evaluator.compute_values(0, at);
+    std::copy_n(values.begin(), result.size(), result.begin());
+  }
+  entry.field->mesh().communicator().sum(result);
+  return result;
+}
+
+std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const std::string& unknown,
+                             const std::vector<std::string>& boundaries) {
+  const Field::Place place = entry.field->place(unknown);
+  const Block& block = entry.field->blocks()[place.block];
+  std::vector<char> counted(block.space->nodes(), 0);
+  std::vector<double> sum(place.components, 0.0);
+  for (const std::string& boundary : boundaries)
+    for (const PrescribedCondition& condition : entry.conditions) {
+      if (condition.boundary != boundary || condition.block != place.block) continue;
+      for (const int node : condition.nodes) counted[node] = 1;
+    }
+  for (int node = 0; node < block.space->owned_nodes(); ++node)
+    for (int c = 0; c < place.components && counted[node]; ++c) {
+      if (!block.prescribed[static_cast<std::size_t>(node) * block.size + place.offset + c]) continue;
+      const int row = problem.assembler().row(*entry.field, place.block, node, place.offset + c);
+      if (row >= 0) sum[c] += problem.assembler().full_residual()[row];
+    }
+  problem.communicator().sum(sum);
+  return sum;
+}
+
+ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown, const std::vector<Expression>& exact,
+                       const std::vector<Expression>& gradient, double time) {
+  const Field::Place place = entry.field->place(unknown);
+  const Mesh& mesh = entry.field->mesh();
+  const int dim = mesh.dimension();
+  const CellDomain cells(*entry.field, 2 * highest_order(entry) + 4);
+  TimePoint at;
+  at.time = time;
+  const auto norm_of = [&](Shape shape, const std::vector<Expression>& known) {
+    const int components = place.components * rows(shape, dim);
+    if (static_cast<int>(known.size()) != components)
+      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown, components, known.size()));
+    ElementEvaluator evaluator(
+        cells, {{std::make_shared<UnknownQuantity>(place.components, shape, dim), {Operand{0, unknown}}}});
+    double square = 0;
+    for (int e = 0; e < cells.size(); ++e) {
+      const auto& values = evaluator.compute_values(e, at);
+      const Element& element = evaluator.element();
+      for (int q = 0; q < element.points; ++q)
+        for (int c = 0; c < components; ++c) {
+          const double* x = &element.sides[0].position[static_cast<std::size_t>(q) * dim];
+          const double difference = values[static_cast<std::size_t>(q) * components + c] - known[c](x, dim, time);
+          square += element.weight[q] * difference * difference;
+        }
+    }
+    return std::sqrt(mesh.communicator().sum(square));
+  };
+  ErrorNorms norms;
+  norms.l2 = norm_of(Shape::value, exact);
+  if (!gradient.empty()) norms.h1 = norm_of(Shape::gradient, gradient);
+  return norms;
+}
+
+}  // namespace seam

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "seam/scene/parameters.hpp"
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+
+/// A quantity of a field by its name: an unknown, or an output that the physics declares.
+struct NamedQuantity {
+  std::shared_ptr<const Term> term;
+  std::vector<std::string> operands;
+  int components = 1;
+};
+/// @throws Error listing the quantities the field has
+NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name);
+
+/// Values of a quantity at the nodes of a space, averaged over the cells that meet there, [local node][component].
+/// The averages are complete on the nodes of owned cells.
+std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, const NamedQuantity& quantity,
+                                 const TimePoint& at);
+
+/// Integral of each component over the field's cells. Collective.
+std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity, const TimePoint& at);
+/// Integral of each component over boundaries, in the reference configuration. Collective.
+std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,
+                                      const NamedQuantity& quantity, const TimePoint& at);
+
+/// A point of a field: found once, evaluated often.
+class ProbePoint {
+ public:
+  /// Collective. @throws Error when the point lies in no cell, with the distance to the nearest one
+  ProbePoint(const FieldEntry& entry, const std::vector<double>& position, const Location& where);
+  /// Collective: the same value on every rank.
+  [[nodiscard]] std::vector<double> evaluate(const FieldEntry& entry, const NamedQuantity& quantity,
+                                             const TimePoint& at) const;
+
+ private:
+  int cell_ = -1;   ///< local, on the rank that evaluates; -1 elsewhere
+  std::vector<double> reference_;
+};
+
+/// Sum of the forces that hold the prescribed components of an unknown on boundaries. Collective.
+std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const std::string& unknown,
+                             const std::vector<std::string>& boundaries);
+
+/// L2 norm of (unknown - exact) and of (gradient - exact gradient) over the field's cells. Collective.
+struct ErrorNorms {
+  double l2 = 0;
+  std::optional<double> h1;
+};
+ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown, const std::vector<Expression>& exact,
+                       const std::vector<Expression>& gradient, double time);
+
+}  // namespace seam

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/field_output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "seam/output/vtu.hpp"
+#include "seam/run/evaluate.hpp"
+
+namespace seam {
+namespace {
+
+const Space* finest_space(const FieldEntry& entry) {
+  const Space* finest = nullptr;
+  for (const Block& block : entry.field->blocks())
+    if (!finest || block.space->order() > finest->order()) finest = block.space.get();
+  return finest;
+}
+
+/// Cells and nodes of a space; the piece holds the cells this rank owns.
+VtuPiece piece_of(const Space& space) {
+  const Mesh& mesh = space.mesh();
+  VtuPiece piece;
+  piece.dimension = mesh.dimension();
+  piece.type = mesh.type();
+  piece.order = space.order();
+  for (int n = 0; n < space.nodes(); ++n)
+    piece.points.insert(piece.points.end(), space.position(n), space.position(n) + piece.dimension);
+  for (int c = 0; c < mesh.owned_cells(); ++c)
+    piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c), space.cell_nodes(c) + space.nodes_per_cell());
+  return piece;
+}
+
+void add_quantities(const FieldEntry& entry, const Space& space, const TimePoint& at, VtuPiece& piece) {
+  std::vector<std::string> names;
+  for (const Unknown& unknown : entry.field->unknowns()) names.push_back(unknown.name);
+  for (const FieldQuantity& output : entry.outputs) names.push_back(output.name);
+  for (const std::string& name : names) {
+    const NamedQuantity quantity = find_quantity(entry, name);
+    VtuArray array{name, quantity.components, nodal_values(entry, space, quantity, at), {}};
+    if (quantity.components == 6) array.component_names = {"xx", "yy", "zz", "xy", "yz", "xz"};
+    piece.point_arrays.push_back(std::move(array));
+  }
+}
+
+/// A rigid body is shown by its mesh, moved as its point says.
+VtuPiece rigid_piece(const FieldEntry& entry, const Space& shape) {
+  VtuPiece piece = piece_of(shape);
+  const int dim = piece.dimension;
+  VtuArray array{entry.physics->displacement(), dim, std::vector<double>(piece.points.size()), {}};
+  const Block& block = entry.field->blocks().front();
+  std::vector<double> motion(block.size, 0.0), centre(dim, 0.0);
+  if (block.space->owned_nodes() > 0) {
+    std::copy_n(block.now.value.begin(), block.size, motion.begin());
+    std::copy_n(block.space->position(0), dim, centre.begin());
+  }
+  entry.mesh->communicator().sum(motion);
+  entry.mesh->communicator().sum(centre);
+  for (int n = 0; n < shape.nodes(); ++n) {
+    std::vector<double> arm(dim);
+    for (int d = 0; d < dim; ++d) arm[d] = shape.position(n)[d] - centre[d];
+    entry.physics->displace(dim, motion.data(), arm.data(), &array.values[static_cast<std::size_t>(n) * dim]);
+  }
+  piece.point_arrays.push_back(std::move(array));
+  return piece;
+}
+
+}  // namespace
+
+FieldOutput::FieldOutput(Problem& problem, std::filesystem::path folder, double resume_time)
+    : problem_(problem), folder_(std::move(folder)) {
+  if (problem_.communicator().rank() == 0) std::filesystem::create_directories(folder_ / "fields");
+  MPI_Barrier(problem_.communicator().handle());
+  for (const FieldEntry& entry : problem_.fields()) {
+    const std::string path = series(entry.name).string();
+    series_.push_back(resume_time >= 0 && problem_.communicator().rank() == 0 ? PvdSeries::resume(path, resume_time)
+                                                                              : PvdSeries(path));
+  }
+}
+
+void FieldOutput::write(long step_number, const TimePoint& at) {
+  const Communicator& communicator = problem_.communicator();
+  for (std::size_t f = 0; f < problem_.fields().size(); ++f) {
+    const FieldEntry& entry = problem_.fields()[f];
+    const bool rigid = entry.physics->support() == Support::point;
+    const Space* space = finest_space(entry);
+    std::unique_ptr<Space> shape;
+    if (rigid || !space) shape = std::make_unique<Space>(*entry.shape, entry.shape->order());
+    VtuPiece piece = rigid ? rigid_piece(entry, *shape) : piece_of(space ? *space : *shape);
+    if (!rigid && space) add_quantities(entry, *space, at, piece);
+    const std::string stem = fmt::format("{}-{:06}", entry.name, step_number);
+    const auto piece_name = [&](int rank) { return fmt::format("{}-r{}.vtu", stem, rank); };
+    const std::filesystem::path fields = folder_ / "fields";
+    if (communicator.size() == 1) {
+      write_vtu((fields / (stem + ".vtu")).string(), piece);
+      series_[f].add(at.time, "fields/" + stem + ".vtu");
+      continue;
+    }
+    write_vtu((fields / piece_name(communicator.rank())).string(), piece);
+    if (communicator.rank() != 0) continue;
+    std::vector<std::string> pieces;
+    for (int r = 0; r < communicator.size(); ++r) pieces.push_back(piece_name(r));
+    write_pvtu((fields / (stem + ".pvtu")).string(), pieces, piece);
+    series_[f].add(at.time, "fields/" + stem + ".pvtu");
+  }
+  MPI_Barrier(communicator.handle());
+}
+
+}  // namespace seam

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+#include "seam/output/pvd.hpp"
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+
+/// Writes the fields of a problem as VTU pieces with one PVD time series per field.
+class FieldOutput {
+ public:
+  /// @param resume_time keep what existing series hold up to this time; negative: start afresh
+  FieldOutput(Problem& problem, std::filesystem::path folder, double resume_time);
+  /// Collective.
+  void write(long step_number, const TimePoint& at);
+  /// The time series file of a field.
+  [[nodiscard]] std::filesystem::path series(const std::string& field) const { return folder_ / (field + ".pvd"); }
+
+ private:
+  Problem& problem_;
+  std::filesystem::path folder_;
+  std::vector<PvdSeries> series_;
+};
+
+}  // namespace seam

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/probes.hpp"
+
+#include <fmt/os.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace seam {
+
+Probe::Probe(std::string name, const Parameters& p, Problem& problem)
+    : name_(std::move(name)), field_(p.text("field")), quantity_name_(p.text("quantity")) {
+  const FieldEntry& entry = problem.field(field_);
+  if (p.has("on")) boundaries_ = p.names("on");
+  if (p.has("component")) component_ = p.text("component");
+  // The force that holds what is prescribed: known only where something is prescribed.
+  reaction_ = quantity_name_ == "reaction";
+  try {
+    if (reaction_) {
+      if (boundaries_.empty()) throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
+      quantity_ = find_quantity(entry, entry.field->unknowns().at(0).name);
+    } else {
+      quantity_ = find_quantity(entry, quantity_name_);
+    }
+  } catch (const Error& error) {
+    throw Error(p.where("quantity"), error.what());
+  }
+  const bool on_point = entry.physics->support() == Support::point;
+  if (boundaries_.empty()) {
+    if (!p.has("at") && !on_point) throw Error(p.where(), "a probe needs `at`, a point, or `on`, boundaries");
+    point_.emplace(entry, p.has("at") ? p.vector("at") : std::vector<double>(3, 0.0), p.where("at"));
+  }
+}
+
+std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const {
+  const FieldEntry& entry = problem.field(field_);
+  if (reaction_) return reaction(problem, entry, entry.field->unknowns().at(0).name, boundaries_);
+  if (point_) return point_->evaluate(entry, quantity_, at);
+  return boundary_integral(entry, boundaries_, quantity_, at);
+}
+
+void Probe::record(Problem& problem, const TimePoint& at, Results& results) const {
+  const std::vector<double> values = evaluate(problem, at);
+  static const std::vector<std::string> axes{"x", "y", "z"};
+  static const std::vector<std::string> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
+  if (component_ == "magnitude") {
+    double square = 0;
+    for (const double v : values) square += v * v;
+    results.series[name_].push_back(std::sqrt(square));
+  } else if (!component_.empty()) {
+    const std::size_t c = component_[0] - 'x';
+    if (c >= values.size())
+      throw Error(fmt::format("probe '{}': '{}' has {} components, no '{}'", name_, quantity_name_, values.size(), component_));
+    results.series[name_].push_back(values[c]);
+  } else if (values.size() == 1) {
+    results.series[name_].push_back(values[0]);
+  } else {
+    const auto& names = values.size() == 6 ? tensor : axes;
+    for (std::size_t c = 0; c < values.size(); ++c)
+      results.series[name_ + "." + (c < names.size() ? names[c] : std::to_string(c + 1))].push_back(values[c]);
+  }
+}
+
+void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
+  for (const FieldEntry& entry : problem.fields())
+    for (const FieldQuantity& integral : entry.integrals) {
+      const int components = integral.term->signature(entry.mesh->dimension()).values;
+      const auto values = cell_integral(entry, {integral.term, integral.operands, components}, at);
+      results.series[entry.name + "." + integral.name].push_back(values.at(0));
+    }
+}
+
+void write_series(const std::string& path, const Results& results) {
+  {
+    auto out = fmt::output_file(path + ".part");
+    std::vector<std::string> names;
+    for (const auto& entry : results.series) names.push_back(entry.first);
+    out.print("time{}{}\n", names.empty() ? "" : ",", fmt::join(names, ","));
+    for (std::size_t k = 0; k < results.time.size(); ++k) {
+      out.print("{}", results.time[k]);
+      for (const auto& entry : results.series) out.print(",{}", entry.second[k]);
+      out.print("\n");
+    }
+  }
+  std::filesystem::rename(path + ".part", path);
+}
+
+}  // namespace seam

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "seam/run/evaluate.hpp"
+#include "seam/run/results.hpp"
+
+namespace seam {
+
+/// Something recorded at every step under one or more names.
+class Probe {
+ public:
+  /// Collective. @param parameters an entry of a scene's output.probes
+  Probe(std::string name, const Parameters& parameters, Problem& problem);
+  /// Appends the present values to `results`: `name`, or `name.x`, `name.y`, ... for several components.
+  /// Collective.
+  void record(Problem& problem, const TimePoint& at, Results& results) const;
+
+ private:
+  [[nodiscard]] std::vector<double> evaluate(Problem& problem, const TimePoint& at) const;
+  std::string name_;
+  std::string field_;
+  std::string quantity_name_;
+  NamedQuantity quantity_;
+  std::vector<std::string> boundaries_;
+  std::optional<ProbePoint> point_;
+  bool reaction_ = false;
+  std::string component_;   ///< "", "x", "y", "z" or "magnitude"
+};
+
+/// Appends the integrals that each field's physics declares, as `field.name`. Collective.
+void record_integrals(Problem& problem, const TimePoint& at, Results& results);
+
+/// Writes all series as a CSV file with one line per step.
+void write_series(const std::string& path, const Results& results);
+
+}  // namespace seam

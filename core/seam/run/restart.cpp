@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/restart.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace seam {
+namespace {
+
+// File: magic, format number, length of a JSON header, header, doubles, checksum of all that.
+constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '1'};
+
+/// 64-bit FNV-1a.
+std::uint64_t checksum(const std::string& bytes) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+  return hash;
+}
+
+std::string block_name(const FieldEntry& entry, std::size_t b) {
+  return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());
+}
+
+const std::vector<double>* level(const Block& block, int l) {
+  return l == 0 ? &block.now.value : l == 1 ? &block.now.rate : &block.now.second_rate;
+}
+
+/// Values of all nodes of a block by global number, on rank 0: [global node][component].
+std::vector<double> collect(const Block& block, const std::vector<double>& values) {
+  const Space& space = *block.space;
+  const Communicator& communicator = space.mesh().communicator();
+  std::vector<std::vector<int>> nodes(communicator.size());
+  std::vector<std::vector<double>> data(communicator.size());
+  for (int n = 0; n < space.owned_nodes(); ++n) nodes[0].push_back(space.global_node(n));
+  data[0].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(space.owned_nodes()) * block.size);
+  const auto all_nodes = communicator.exchange(nodes);
+  const auto all_data = communicator.exchange(data);
+  if (communicator.rank() != 0) return {};
+  std::vector<double> result(static_cast<std::size_t>(space.global_bound()) * block.size, 0.0);
+  for (std::size_t r = 0; r < all_nodes.size(); ++r)
+    for (std::size_t k = 0; k < all_nodes[r].size(); ++k)
+      std::copy_n(all_data[r].begin() + static_cast<std::ptrdiff_t>(k) * block.size, block.size,
+                  result.begin() + static_cast<std::ptrdiff_t>(all_nodes[r][k]) * block.size);
+  return result;
+}
+
+void write_durably(const std::filesystem::path& file, const std::string& bytes) {
+  const std::filesystem::path part = file.string() + ".part";
+  const int handle = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  bool good = handle >= 0;
+  for (std::size_t at = 0; good && at < bytes.size();) {
+    const ssize_t written = ::write(handle, bytes.data() + at, bytes.size() - at);
+    good = written > 0;
+    at += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+  }
+  good = good && ::fsync(handle) == 0;
+  if (handle >= 0) ::close(handle);
+  if (!good) throw Error(fmt::format("cannot write the restart point '{}': is the disk full?", part.string()));
+  std::filesystem::rename(part, file);
+}
+
+std::vector<std::filesystem::path> restart_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (std::filesystem::is_directory(folder))
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".restart") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::string read_all(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(fmt::format("cannot read the restart point '{}'", file.string()));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Header and payload of a complete file; throws when anything is damaged.
+nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes, const double*& payload,
+                     std::size_t& count) {
+  const auto damaged = [&] { return Error(fmt::format("the restart point '{}' is damaged or incomplete", file.string())); };
+  std::uint64_t length = 0, sum = 0;
+  constexpr std::size_t fixed = sizeof magic + sizeof length;
+  if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + sizeof magic, bytes.begin())) throw damaged();
+  std::copy_n(bytes.data() + sizeof magic, sizeof length, reinterpret_cast<char*>(&length));
+  std::copy_n(bytes.data() + bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<char*>(&sum));
+  if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum || length > bytes.size() - fixed - sizeof sum)
+    throw damaged();
+  const auto header = nlohmann::json::parse(bytes.begin() + fixed, bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length));
+  payload = reinterpret_cast<const double*>(bytes.data() + fixed + length);
+  count = (bytes.size() - fixed - length - sizeof sum) / sizeof(double);
+  return header;
+}
+
+}  // namespace
+
+void write_restart(const std::filesystem::path& file, const Problem& problem, const RunState& state,
+                   const std::string& scene_text) {
+  nlohmann::json header;
+  header["time"] = state.time;
+  header["step"] = state.step;
+  header["step_number"] = state.step_number;
+  header["scene_checksum"] = checksum(scene_text);
+  header["times"] = state.results.time;
+  header["series"] = state.results.series;
+  std::vector<double> payload;
+  for (const FieldEntry& entry : problem.fields())
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
+      const Block& block = entry.field->blocks()[b];
+      header["blocks"].push_back({{"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}});
+      for (int l = 0; l < 3; ++l) {
+        const auto values = collect(block, *level(block, l));
+        payload.insert(payload.end(), values.begin(), values.end());
+      }
+    }
+  if (problem.communicator().rank() == 0) {
+    // Aligns the doubles that follow.
+    std::string text = header.dump();
+    text.resize((text.size() + 7) / 8 * 8, ' ');
+    const std::uint64_t length = text.size();
+    std::string bytes(magic, sizeof magic);
+    bytes.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
+    bytes.append(reinterpret_cast<const char*>(payload.data()), payload.size() * sizeof(double));
+    const std::uint64_t sum = checksum(bytes);
+    bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    std::filesystem::create_directories(file.parent_path());
+    write_durably(file, bytes);
+  }
+  MPI_Barrier(problem.communicator().handle());
+}
+
+RunState read_restart(const std::filesystem::path& file, Problem& problem) {
+  const std::string bytes = read_all(file);
+  const double* payload = nullptr;
+  std::size_t count = 0;
+  const nlohmann::json header = parse(file, bytes, payload, count);
+  std::size_t at = 0, which = 0;
+  for (FieldEntry& entry : problem.fields())
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
+      Block& block = entry.field->blocks()[b];
+      const nlohmann::json expected = {{"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}};
+      if (which >= header["blocks"].size() || header["blocks"][which] != expected)
+        throw Error(fmt::format("the restart point '{}' was written by another scene: it does not hold {}", file.string(),
+                                expected.dump()));
+      const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
+      if (at + 3 * size > count) throw Error(fmt::format("the restart point '{}' is too short", file.string()));
+      std::vector<double>* levels[3] = {&block.now.value, &block.now.rate, &block.now.second_rate};
+      for (int l = 0; l < 3; ++l, at += size)
+        for (int n = 0; n < block.space->nodes(); ++n)
+          std::copy_n(payload + at + static_cast<std::size_t>(block.space->global_node(n)) * block.size, block.size,
+                      levels[l]->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
+      block.old = block.now;
+    }
+  RunState state;
+  state.time = header["time"];
+  state.step = header["step"];
+  state.step_number = header["step_number"];
+  state.results.time = header["times"].get<std::vector<double>>();
+  state.results.series = header["series"].get<std::map<std::string, std::vector<double>>>();
+  return state;
+}
+
+std::filesystem::path latest_restart(const std::filesystem::path& folder) {
+  const auto files = restart_files(folder);
+  return files.empty() ? std::filesystem::path() : files.back();
+}
+
+void prune_restarts(const std::filesystem::path& folder, long keep) {
+  const auto files = restart_files(folder);
+  for (std::size_t k = 0; k + static_cast<std::size_t>(keep) < files.size(); ++k) std::filesystem::remove(files[k]);
+}
+
+}  // namespace seam

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "seam/run/results.hpp"
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+
+/// Where a run stands between two steps.
+struct RunState {
+  double time = 0;
+  double step = 0;        ///< next step to try, s
+  long step_number = 0;
+  Results results;        ///< recorded so far
+};
+
+/// Writes the states of all fields and `state` as one file, by global node numbers, so that any number of ranks can
+/// read it. The file gets its name only when it is complete and on disk: a run that is killed while writing loses
+/// nothing but this point. Collective.
+void write_restart(const std::filesystem::path& file, const Problem& problem, const RunState& state,
+                   const std::string& scene_text);
+
+/// Reads a restart point into the problem. Collective.
+/// @throws Error when the file is damaged or belongs to other fields
+RunState read_restart(const std::filesystem::path& file, Problem& problem);
+
+/// The newest complete restart point of a folder, "" if there is none.
+std::filesystem::path latest_restart(const std::filesystem::path& folder);
+
+/// Deletes all but the newest `keep` restart points of a folder.
+void prune_restarts(const std::filesystem::path& folder, long keep);
+
+}  // namespace seam

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "seam/linear/linear_solver.hpp"
+#include "seam/run/checks.hpp"
+#include "seam/run/field_output.hpp"
+#include "seam/run/probes.hpp"
+#include "seam/run/restart.hpp"
+#include "seam/scene/scene.hpp"
+#include "seam/solve/newton.hpp"
+
+namespace seam {
+
+struct RunOptions {
+  std::filesystem::path folder;      ///< for results; created
+  bool resume = false;               ///< continue from the newest restart point in the folder, if there is one
+  bool quiet = false;                ///< no progress line
+  std::optional<long> stop_after;    ///< steps to take in this run, for tests of the restart
+};
+
+/// Where the time of a run went, s.
+struct Timings {
+  double setup = 0, pattern = 0, assembly = 0, linear = 0, output = 0, total = 0;
+};
+
+/// A scene brought to life: built, stepped through time, recorded.
+class Simulation {
+ public:
+  /// Builds meshes, fields and couplings. Collective.
+  /// @throws Error with places in the scene
+  Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator);
+
+  /// Runs to the end. Collective. @throws Error when a step fails for good: the last good state is on disk
+  const Results& run(const RunOptions& options);
+
+  [[nodiscard]] Problem& problem() { return problem_; }
+  [[nodiscard]] const Timings& timings() const { return timings_; }
+  [[nodiscard]] long step_number() const { return state_.step_number; }
+  /// Newton histories of all steps.
+  [[nodiscard]] const std::vector<NewtonReport>& newton_reports() const { return reports_; }
+  [[nodiscard]] long long unknowns();
+  /// The machine-readable record of the run: residual histories, times, memory, versions, checks.
+  [[nodiscard]] nlohmann::json summary(const std::vector<CheckResult>& checks);
+
+ private:
+  struct TimeSettings {
+    bool is_static = true;
+    double theta = 1, start = 0, end = 1;
+    double initial = 1, minimum = 1e-6, maximum = 1;
+    bool adaptive = false;
+  };
+  void read_time();
+  void build_fields(const Registry& registry);
+  void build_couplings(const Registry& registry);
+  void start(const RunOptions& options);
+  bool try_step(double step);
+  double next_step(double tried) const;
+  [[nodiscard]] double time_error(const TimePoint& at) const;
+  void record(const TimePoint& at);
+  void save_restart();
+  void finish_errors();
+  void show_progress(const RunOptions& options, double seconds) const;
+
+  const Scene& scene_;
+  Communicator communicator_;
+  Problem problem_;
+  std::unique_ptr<LinearSolver> linear_;
+  std::unique_ptr<Newton> newton_;
+  TimeSettings time_;
+  RunState state_;
+  std::vector<Probe> probes_;
+  std::unique_ptr<FieldOutput> fields_;
+  std::filesystem::path folder_;
+  std::vector<NewtonReport> reports_;
+  Timings timings_;
+  double last_time_error_ = 0;
+  long rejected_steps_ = 0;
+};
+
+/// Reads and distributes the meshes a scene names. Exposed for `seam check`.
+std::map<std::string, std::shared_ptr<const MeshData>> load_meshes(const Scene& scene);
+/// The names they carry, for check_mesh_names.
+std::map<std::string, MeshNames> mesh_names(const std::map<std::string, std::shared_ptr<const MeshData>>& meshes);
+
+}  // namespace seam

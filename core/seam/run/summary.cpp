@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sys/resource.h>
+#include <sys/utsname.h>
+
+#include <Trilinos_version.h>
+#include <fmt/format.h>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "seam/plugin/fingerprint.hpp"
+#include "seam/run/simulation.hpp"
+
+namespace seam {
+namespace {
+
+/// Largest resident memory of this process so far, bytes.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+nlohmann::json machine() {
+  utsname name{};
+  uname(&name);
+  return {{"system", name.sysname}, {"release", name.release}, {"architecture", name.machine}};
+}
+
+nlohmann::json histories(const std::vector<NewtonReport>& reports) {
+  auto all = nlohmann::json::array();
+  for (const NewtonReport& report : reports) {
+    auto steps = nlohmann::json::array();
+    for (const NewtonIteration& i : report.history)
+      steps.push_back({{"residual", i.residual}, {"worst", i.worst}, {"damping", i.damping},
+                       {"linear_iterations", i.linear_iterations}, {"linear_residual", i.linear_residual},
+                       {"space_changed", i.space_changed}});
+    all.push_back({{"converged", report.converged}, {"reason", report.reason}, {"iterations", steps}});
+  }
+  return all;
+}
+
+}  // namespace
+
+nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
+  nlohmann::json s;
+  s["title"] = scene_.root.text("title");
+  s["scene"] = scene_.path.filename().string();
+  s["scene_hash"] = fmt::format("{:016x}", std::hash<std::string>{}(scene_.text));
+  s["parameters"] = scene_.parameters;
+  s["versions"] = {{"fingerprint", SEAM_FINGERPRINT}, {"trilinos", TRILINOS_VERSION_STRING}};
+  s["machine"] = machine();
+  s["ranks"] = communicator_.size();
+  s["unknowns"] = unknowns();
+  s["steps"] = state_.step_number;
+  s["rejected_steps"] = rejected_steps_;
+  s["seconds"] = {{"setup", timings_.setup}, {"pattern", timings_.pattern}, {"assembly", timings_.assembly},
+                  {"linear", timings_.linear}, {"output", timings_.output}, {"total", timings_.total}};
+  s["peak_memory_bytes"] = communicator_.sum(peak_memory());
+  s["newton"] = histories(reports_);
+  for (const std::string& name : state_.results.names()) s["results"][name] = state_.results.value(name, time_.end);
+  s["checks"] = nlohmann::json::array();
+  for (const CheckResult& c : checks)
+    s["checks"].push_back({{"that", c.that}, {"value", c.value}, {"expected", c.expected}, {"deviation", c.deviation},
+                           {"passed", c.passed}, {"source", c.source}});
+  return s;
+}
+
+}  // namespace seam

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/scene/expression.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <muParser.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "seam/base/diagnostics.hpp"
+
+namespace seam {
+
+struct Expression::Compiled {
+  mu::Parser parser;
+  std::array<double, 4> variables{};  ///< x, y, z, t
+};
+
+namespace {
+
+constexpr std::size_t longest_text = 4000;  // muParser gives up at 5000, with a message nobody understands
+constexpr std::array<const char*, 4> variable_names{"x", "y", "z", "t"};
+
+[[noreturn]] void fail(const std::string& text, const std::string& what) {
+  const std::string shown = text.size() > 80 ? text.substr(0, 77) + "..." : text;
+  throw Error(fmt::format("expression '{}': {}", shown, what));
+}
+
+/// Turns `${name}` into ` name ` of equal length, so that positions in messages stay true.
+std::string without_braces(const std::string& text) {
+  std::string result = text;
+  for (std::size_t i = 0; (i = result.find("${", i)) != std::string::npos;) {
+    const std::size_t end = result.find('}', i);
+    if (end == std::string::npos) {
+      fail(text, fmt::format("'${{' at character {} has no closing '}}'; write ${{name}}", i + 1));
+    }
+    result[i] = result[i + 1] = result[end] = ' ';
+    i = end;
+  }
+  return result;
+}
+
+/// Refuses what muParser would accept but nobody means in a scene: assignments, strings, other alphabets.
+void check_characters(const std::string& text, const std::string& plain) {
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const char c = plain[i];
+    const bool printable = (c >= 0x20 && c < 0x7f) || c == '\n' || c == '\t';
+    if (!printable || std::string_view("\"';#$@\\`{}[]").find(c) != std::string_view::npos) {
+      fail(text, fmt::format("character {} cannot be used here; expected numbers, names, operators and ( )",
+                             i + 1));
+    }
+    if (c != '=') continue;
+    const bool second = i > 0 && std::string_view("<>!=").find(plain[i - 1]) != std::string_view::npos;
+    const bool first = i + 1 < plain.size() && plain[i + 1] == '=';
+    if (!first && !second) fail(text, fmt::format("'=' at character {}; to compare, write '=='", i + 1));
+  }
+}
+
+/// What muParser found wrong, in our words where its own do not help.
+std::string explain(const mu::Parser::exception_type& e, const std::map<std::string, double>& parameters,
+                    const mu::Parser& parser, bool with_variables) {
+  const int position = std::max(0, static_cast<int>(e.GetPos())) + 1;
+  if (e.GetCode() != mu::ecUNASSIGNABLE_TOKEN) {
+    std::string reason = e.GetMsg();
+    reason.erase(std::min(reason.size(), reason.find(" at position ")));
+    while (!reason.empty() && (reason.back() == '.' || reason.back() == '\n')) reason.pop_back();
+    return fmt::format("{} (at character {})", reason, position);
+  }
+  std::string token = e.GetToken();
+  token.erase(token.find_last_not_of(" \t\n") + 1);
+  if (token.find_first_of("0123456789.") == 0) {
+    return fmt::format("'{}' at character {} is no number that a computer can hold", token, position);
+  }
+  std::vector<std::string> known{"pi"};
+  if (with_variables) known.insert(known.end(), variable_names.begin(), variable_names.end());
+  for (const auto& entry : parameters) known.push_back(entry.first);
+  const std::string listed = fmt::format("{}", fmt::join(known, ", "));
+  for (const auto& function : parser.GetFunDef()) known.push_back(function.first);
+  const std::string guess = nearest_name(token, known);
+  return fmt::format(
+      "unknown name '{}' at character {}{}; known names: {} and functions such as sin, exp, min", token,
+      position, guess.empty() ? "" : fmt::format(", did you mean '{}'?", guess), listed);
+}
+
+/// True and sets `value` when the text is a plain number, the common case.
+bool plain_number(const std::string& text, double& value) {
+  const char* first = text.data();
+  const char* last = first + text.size();
+  const auto [end, code] = std::from_chars(first, last, value);
+  return code == std::errc{} && end == last && std::isfinite(value);
+}
+
+/// @param variables x, y, z, t, or null when the text must be a constant
+void compile(mu::Parser& parser, const std::string& text, const std::map<std::string, double>& parameters,
+             double* variables) {
+  if (text.size() > longest_text) {
+    fail(text, fmt::format("it has {} characters, at most {} are allowed", text.size(), longest_text));
+  }
+  const std::string plain = without_braces(text);
+  check_characters(text, plain);
+  try {
+    parser.DefineConst("pi", std::numbers::pi);
+    for (const auto& [name, value] : parameters) parser.DefineConst(name, value);
+    for (std::size_t i = 0; variables && i < variable_names.size(); ++i) {
+      parser.DefineVar(variable_names[i], variables + i);
+    }
+    parser.SetExpr(plain);
+    parser.Eval();
+    if (parser.GetNumResults() != 1) fail(text, "it has several results; expected one, without ','");
+  } catch (const mu::Parser::exception_type& e) {
+    const std::string token = e.GetToken();
+    const bool variable =
+        std::find(variable_names.begin(), variable_names.end(), token) != variable_names.end();
+    if (!variables && variable && e.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {
+      fail(text, fmt::format("it depends on '{}'; expected a constant, without position or time (x, y, z, t)",
+                             token));
+    }
+    fail(text, explain(e, parameters, parser, variables != nullptr));
+  }
+}
+
+double finite_value(const mu::Parser& parser, const std::string& text) {
+  const double value = parser.Eval();
+  if (!std::isfinite(value)) fail(text, fmt::format("its value is {}; expected a finite number", value));
+  return value;
+}
+
+}  // namespace
+
+Expression::Expression(const std::string& text, const std::map<std::string, double>& parameters)
+    : text_(text) {
+  if (plain_number(text, value_)) return;
+  auto compiled = std::make_shared<Compiled>();
+  compile(compiled->parser, text, parameters, compiled->variables.data());
+  if (!compiled->parser.GetUsedVar().empty()) {
+    compiled_ = std::move(compiled);
+    value_ = 0.0;
+  } else {
+    value_ = finite_value(compiled->parser, text);
+  }
+}
+
+double Expression::operator()(const double* x, int dim, double t) const {
+  if (!compiled_) return value_;
+  for (int i = 0; i < 3; ++i) compiled_->variables[static_cast<std::size_t>(i)] = i < dim ? x[i] : 0.0;
+  compiled_->variables[3] = t;
+  return compiled_->parser.Eval();
+}
+
+double evaluate_constant(const std::string& text, const std::map<std::string, double>& parameters) {
+  double value = 0.0;
+  if (plain_number(text, value)) return value;
+  mu::Parser parser;
+  compile(parser, text, parameters, nullptr);
+  return finite_value(parser, text);
+}
+
+bool is_reserved_in_expressions(const std::string& name) {
+  static const mu::Parser plain;
+  return name == "pi" ||
+         std::find(variable_names.begin(), variable_names.end(), name) != variable_names.end() ||
+         plain.GetFunDef().count(name) > 0 || plain.GetConst().count(name) > 0;
+}
+
+}  // namespace seam

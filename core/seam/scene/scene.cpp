@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <fstream>
+#include <iterator>
+
+#include "seam/scene/cross_check.hpp"
+#include "seam/scene/validate.hpp"
+#include "seam/scene/yaml_tree.hpp"
+
+namespace seam {
+
+namespace {
+
+using Kind = YamlNode::Kind;
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> result(1);
+  for (const char c : path) {
+    if (c == '.') {
+      result.emplace_back();
+    } else {
+      result.back() += c;
+    }
+  }
+  return result;
+}
+
+/// The child that one word of a key path names; made when it is a new key of a map.
+YamlNode& child(YamlNode& node, const std::string& key, const Location& where, const std::string& path) {
+  if (node.kind == Kind::sequence) {
+    std::size_t index = 0;
+    const auto [end, code] = std::from_chars(key.data(), key.data() + key.size(), index);
+    if (code == std::errc{} && end == key.data() + key.size() && index < node.items.size())
+      return node.items[index];
+    throw Error(where, fmt::format("'{}' of the key path '{}' is no entry of {}; count from 0", key, path,
+                                   node.found()));
+  }
+  if (node.kind == Kind::scalar) {
+    throw Error(where,
+                fmt::format("the key path '{}' leads through {}, which has no keys", path, node.found()));
+  }
+  node.kind = Kind::map;
+  if (YamlNode* existing = node.find(key)) return *existing;
+  YamlNode word;
+  word.kind = Kind::scalar;
+  word.scalar = key;
+  word.file = std::make_shared<const std::string>(where.file);
+  node.keys.push_back(word);
+  YamlNode& made = node.items.emplace_back();
+  made.file = word.file;
+  return made;
+}
+
+void apply(YamlNode& root, const std::string& path, const std::string& text) {
+  const Location where{fmt::format("--set {}={}", path, text), 0, 0};
+  const std::vector<std::string> keys = split(path);
+  constexpr std::size_t deepest = 20;
+  if (keys.size() > deepest) throw Error(where, "the key path is too long");
+  YamlNode* node = &root;
+  for (const std::string& key : keys) {
+    if (key.empty()) throw Error(where, "expected key.key=value, with no empty key");
+    node = &child(*node, key, where, path);
+  }
+  *node = parse_yaml(text, where.file, {.bytes = 1 << 16, .nodes = 1000, .depth = 8});
+}
+
+/// Words of a list (or one word), before the schema has been checked; anything else is left to the
+/// validation.
+std::vector<std::string> early_words(const YamlNode& root, const std::string& key) {
+  std::vector<std::string> result;
+  const YamlNode* node = root.find(key);
+  if (!node) return result;
+  if (node->kind == Kind::scalar) result.push_back(node->scalar);
+  for (const YamlNode& item : node->items) {
+    if (node->kind == Kind::sequence && item.kind == Kind::scalar) result.push_back(item.scalar);
+  }
+  std::erase(result, "");
+  return result;
+}
+
+/// The dimension decides how many entries vectors have, so it is needed before the rest is checked.
+int early_dimension(const YamlNode& root) {
+  const YamlNode* node = root.find("dimension");
+  return node && node->kind == Kind::scalar && node->scalar == "3" ? 3 : 2;
+}
+
+void load_plugins(const YamlNode& root, const Scene& scene, PluginHost& host, Registry& registry) {
+  for (const std::string& folder : early_words(root, "plugin_folders"))
+    host.add_folder(scene.path.parent_path() / folder);
+  host.load(scene.plugins, registry);
+}
+
+}  // namespace
+
+Scene parse_scene_text(const std::string& text, const std::filesystem::path& path, const Overrides& overrides,
+                       PluginHost& host, Registry& registry) {
+  static const Schema schema = scene_schema();
+  Scene scene;
+  scene.path = path;
+  scene.text = text;
+  YamlNode root = parse_yaml(text, path.string());
+  if (root.kind == Kind::null) {
+    throw Error({path.string(), 0, 0}, "the scene is empty; `seam explain scene` lists what it needs");
+  }
+  if (root.kind != Kind::map) {
+    throw Error(
+        root.where(),
+        fmt::format("found {}, expected the keys of a scene (title, dimension, meshes, ...)", root.found()));
+  }
+  for (const auto& [key, value] : overrides) apply(root, key, value);
+  scene.plugins = early_words(root, "plugins");
+  load_plugins(root, scene, host, registry);
+
+  Diagnostics diagnostics;
+  if (YamlNode* parameters = root.find("parameters"); parameters && parameters->kind == Kind::map) {
+    scene.parameters = evaluate_parameters(*parameters, diagnostics);
+    // What is wrong here is reported now; the validation of the block would say it again.
+    if (diagnostics.has_errors()) parameters->keys.clear(), parameters->items.clear();
+  }
+  ValidationContext context{
+      registry,
+      diagnostics,
+      early_dimension(root),
+      scene.parameters,
+      path.parent_path(),
+      true,
+      [&](const std::string& kind, const std::string& type) { return host.provider(kind, type); },
+      {}};
+  scene.root = validate(root, schema, context, "");
+  cross_check(scene, registry, host.loaded(), context.used_plugins, diagnostics);
+  diagnostics.throw_if_errors();
+  scene.warnings = diagnostics;
+  return scene;
+}
+
+Scene load_scene(const std::filesystem::path& path, const Overrides& overrides, PluginHost& host,
+                 Registry& registry) {
+  const std::string name = path.string();
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code)) throw Error({name, 0, 0}, "there is no such file");
+  constexpr std::size_t read_at_most = (1 << 20) + 1;  // one byte more than parse_yaml accepts
+  std::ifstream stream(path, std::ios::binary);
+  std::string text(read_at_most, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad() || !stream.eof()) {
+    if (stream.gcount() == 0) throw Error({name, 0, 0}, "the file cannot be read");
+  }
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return parse_scene_text(text, path, overrides, host, registry);
+}
+
+}  // namespace seam

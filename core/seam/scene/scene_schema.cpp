@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The keys of a scene, one function a block.
+#include "seam/mesh/input/mesh_input.hpp"
+#include "seam/scene/scene.hpp"
+
+namespace seam {
+
+namespace {
+
+Schema parameters_schema() {
+  Schema schema("A named constant.");
+  schema.number("value", "number, or an expression of parameters above it");
+  return schema;
+}
+
+Schema time_schema() {
+  Schema step("Length of the time steps.");
+  step.number("initial", "first step").unit("s").above(0);
+  step.number("minimum",
+              "a step that fails is repeated with a shorter one, down to this; default 1e-6 of `initial`")
+      .unit("s")
+      .above(0)
+      .optional();
+  step.number("maximum", "longest step; default `initial`, or a tenth of the time span when adaptive")
+      .unit("s")
+      .above(0)
+      .optional();
+  step.boolean("adaptive", "choose the steps by an estimate of the time error").otherwise("false");
+
+  Schema schema("The time span and how it is stepped through.");
+  schema.boolean("static", "leave out all rates: the time is the parameter of the load").otherwise("false");
+  schema.number("theta", "of the one-step-theta scheme: 1 implicit Euler, 0.5 trapezoidal")
+      .at_least(0.5)
+      .at_most(1)
+      .otherwise("1");
+  schema.number("start", "time at the start").unit("s").otherwise("0");
+  schema.number("end", "time at the end").unit("s");
+  schema.object("step", "length of the steps; default one step to the end", step).optional();
+  return schema;
+}
+
+Schema solver_schema() {
+  Schema newton("The nonlinear solution of a step.");
+  newton.number("tolerance", "of the residual, relative to the forces at work")
+      .above(0)
+      .below(1)
+      .otherwise("1e-8");
+  newton.number("increment_tolerance", "of the last update, relative to the solution; default: not asked for")
+      .above(0)
+      .below(1)
+      .optional();
+  newton.integer("maximum_iterations", "a step that needs more has failed")
+      .at_least(1)
+      .at_most(1000)
+      .otherwise("25");
+  newton.boolean("damping", "shorten updates that make the residual grow").otherwise("true");
+
+  Schema schema("How the equations are solved.");
+  schema.object("newton", "the nonlinear iteration", newton).otherwise("{}");
+  schema.typed("linear", "the linear solver", "linear_solver").otherwise("direct");
+  return schema;
+}
+
+Schema picture_schema() {
+  Schema schema("A picture of the last state, as PNG.");
+  schema.reference("field", "whose mesh is shown", "field");
+  schema.text("quantity", "what colours it: a quantity that `seam explain` lists for the field's type");
+  schema.choice("component", "of a vector quantity; default its magnitude", {"x", "y", "z", "magnitude"})
+      .optional();
+  schema.number("deformed", "scale of the displacement that moves the mesh; 0 for none").otherwise("1");
+  schema.integer("width", "pixels").at_least(16).at_most(16384).otherwise("1200");
+  return schema;
+}
+
+Schema probe_schema() {
+  Schema schema("A number recorded at every step: a quantity at a point, or its integral over boundaries.");
+  schema.reference("field", "where it is read", "field");
+  schema.vector("at", "point in the reference configuration").unit("m").optional();
+  schema.names("on", "boundaries instead of a point").naming("boundary").optional();
+  schema.text("quantity", "a quantity that `seam explain` lists for the field's type");
+  schema.choice("component", "of a vector quantity; default all of them", {"x", "y", "z", "magnitude"})
+      .optional();
+  return schema;
+}
+
+Schema error_schema() {
+  Schema schema("Norms of the difference to a known solution, at the end.");
+  schema.reference("field", "whose solution is compared", "field");
+  schema.text("unknown", "which of its unknowns");
+  schema.vector_expression("exact", "the known solution, one entry per component").entries(-1);
+  schema.vector_expression("gradient", "its gradient for the H1 norm: d(1)/dx, d(1)/dy, ..., d(2)/dx, ...")
+      .entries(-1)
+      .optional();
+  return schema;
+}
+
+Schema output_schema() {
+  Schema restart("Points from which an interrupted run continues.");
+  restart.integer("every", "steps between them; 0 for none").at_least(0).otherwise("0");
+  restart.integer("keep", "how many of the last ones are kept").at_least(1).otherwise("2");
+
+  Schema schema("What the run writes.");
+  schema.text("folder", "where to; default `results/` and the scene's name").optional();
+  schema.integer("every", "steps between two outputs of the fields").at_least(1).otherwise("1");
+  schema.boolean("fields", "write the fields as VTU, with a PVD file for the time series").otherwise("true");
+  schema.object("picture", "a picture of the last state", picture_schema()).optional();
+  schema.map("probes", "numbers recorded at every step, as CSV", probe_schema()).otherwise("{}");
+  schema.map("errors", "comparison with known solutions", error_schema()).otherwise("{}");
+  schema.object("restart", "points to continue from", restart).otherwise("{}");
+  return schema;
+}
+
+Schema check_schema() {
+  Schema schema("One thing that must hold at the end of the run; give `is` with `within`, or bounds.");
+  schema.text("that", "the number to check: a probe, an error norm, a balance");
+  schema.number("is", "its true value").optional();
+  schema.text("within", "allowed deviation from `is`: relative as in 0.1%, or absolute").optional();
+  schema.number("at_least", "lower bound").optional();
+  schema.number("at_most", "upper bound").optional();
+  schema.number("at", "time at which it is taken; default the end").unit("s").optional();
+  schema.text("source", "where the reference comes from");
+  return schema;
+}
+
+Schema study_schema() {
+  Schema values("Values of one parameter.");
+  values.vector("values", "numbers or expressions").entries(-1);
+
+  Schema schema("Runs of this scene over ranges of parameters, compared with each other.");
+  schema.value_map("vary", "key paths of the scene (parameters.h) with the values each takes", values);
+  schema.names("measure", "numbers of each run to report: probes, error norms");
+  schema.text("against", "parameter on the horizontal axis; default the first one").optional();
+  return schema;
+}
+
+}  // namespace
+
+Schema scene_schema() {
+  Schema schema("A scene: meshes, fields on them, interfaces between fields, and what happens there.");
+  schema.text("title", "what the scene shows");
+  schema.text("source", "where it comes from: a paper, a benchmark").optional();
+  schema.integer("dimension", "of space").at_least(2).at_most(3);
+  schema.names("plugins", "plugins to load").naming("plugin").otherwise("[]");
+  schema.names("plugin_folders", "further folders with plugins, relative to the scene").otherwise("[]");
+  schema.value_map("parameters", "named constants for expressions in the scene", parameters_schema())
+      .otherwise("{}");
+  schema.map("meshes", "the meshes", mesh_schema());
+  schema.typed_map("fields", "the physics: unknowns on a mesh", "field");
+  schema.typed_map("interfaces", "where fields meet", "interface").otherwise("{}");
+  schema.typed_list("coupling", "what happens where fields meet", "coupling").otherwise("[]");
+  schema.object("time", "time span; without it, one static step to t = 1", time_schema()).optional();
+  schema.object("solver", "how the equations are solved", solver_schema()).otherwise("{}");
+  schema.object("output", "what the run writes", output_schema()).otherwise("{}");
+  schema.list("checks", "what must hold at the end", check_schema()).otherwise("[]");
+  schema.object("study", "runs over ranges of parameters, for `seam study`", study_schema()).optional();
+  return schema;
+}
+
+}  // namespace seam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include "seam/base/diagnostics.hpp"
+#include "seam/plugin/registry.hpp"
+#include "seam/scene/parameters.hpp"
+#include "seam/scene/schema.hpp"
+#include "seam/scene/yaml_tree.hpp"
+
+namespace seam {
+
+/// What validation needs to know, and what it finds out on the way.
+struct ValidationContext {
+  const Registry& registry;
+  Diagnostics& diagnostics;
+  int dimension = 2;
+  std::map<std::string, double> parameters;  ///< usable in expressions
+  std::filesystem::path folder;              ///< files are relative to it
+  bool files_must_exist = true;
+  /// Name of a plugin that is found but not loaded and provides the type (kind, name), or "".
+  std::function<std::string(const std::string& kind, const std::string& name)> provider;
+  /// Plugins whose types the scene uses. Filled by validate().
+  std::set<std::string> used_plugins;
+};
+
+/// Checks a YAML object against a schema and turns it into values, defaults filled in. All errors go to
+/// `context.diagnostics`, with place, offending key or value, what is allowed and the nearest known name; a
+/// key in error has no value in the result.
+/// @param path how messages call the object: "fields.water", "" for the scene itself
+Parameters validate(const YamlNode& node, const Schema& schema, ValidationContext& context,
+                    const std::string& path);
+
+/// Evaluates a block of named constants, each of which may use those before it.
+std::map<std::string, double> evaluate_parameters(const YamlNode& node, Diagnostics& diagnostics);
+
+/// "number", "list of numbers", ...: the kind in words, for messages, `seam explain` and the reference pages.
+std::string describe(const Parameter& parameter, int dimension = 0);
+
+/// The allowed range in words: "above 0, at most 0.5"; "" when there is none.
+std::string describe_range(const Parameter& parameter);
+
+}  // namespace seam

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/scene/yaml_tree.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+#include <sstream>
+
+namespace seam {
+
+const YamlNode* YamlNode::find(const std::string& key) const {
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (keys[i].scalar == key) return &items[i];
+  }
+  return nullptr;
+}
+
+YamlNode* YamlNode::find(const std::string& key) {
+  return const_cast<YamlNode*>(static_cast<const YamlNode*>(this)->find(key));
+}
+
+std::string YamlNode::found() const {
+  const std::string entries = fmt::format("{} {}", items.size(), items.size() == 1 ? "entry" : "entries");
+  switch (kind) {
+    case Kind::null:
+      return "nothing";
+    case Kind::scalar:
+      return fmt::format("'{}'", scalar.size() > 60 ? scalar.substr(0, 57) + "..." : scalar);
+    case Kind::sequence:
+      return "a list of " + entries;
+    case Kind::map:
+      return "an object of " + entries;
+  }
+  return "";
+}
+
+namespace {
+
+/// Offset of the first byte that does not continue valid UTF-8 text, or npos. Control characters do not
+/// either.
+std::size_t first_bad_byte(const std::string& s) {
+  for (std::size_t i = 0; i < s.size();) {
+    const auto c = static_cast<unsigned char>(s[i]);
+    if ((c < 0x20 && c != '\n' && c != '\t' && c != '\r') || c == 0x7f) return i;
+    const std::size_t length = c < 0x80                ? 1
+                               : c >= 0xc2 && c < 0xe0 ? 2
+                               : (c & 0xf0) == 0xe0    ? 3
+                               : c >= 0xf0 && c < 0xf5 ? 4
+                                                       : 0;
+    if (length == 0 || i + length > s.size()) return i;
+    unsigned code = length == 1 ? c : c & (0xffU >> (length + 1));
+    for (std::size_t k = 1; k < length; ++k) {
+      const auto next = static_cast<unsigned char>(s[i + k]);
+      if ((next & 0xc0U) != 0x80U) return i;
+      code = (code << 6U) | (next & 0x3fU);
+    }
+    const bool overlong = (length == 3 && code < 0x800) || (length == 4 && code < 0x10000);
+    if (overlong || code > 0x10ffff || (code >= 0xd800 && code < 0xe000)) return i;
+    i += length;
+  }
+  return std::string::npos;
+}
+
+/// The text's own line and column, counted from 1.
+Location place_of(const std::string& text, std::size_t offset, const std::string& name) {
+  Location where{name, 1, 1};
+  for (std::size_t i = 0; i < offset; ++i) {
+    where.column = text[i] == '\n' ? 1 : where.column + 1;
+    if (text[i] == '\n') ++where.line;
+  }
+  return where;
+}
+
+/// Builds the tree from yaml-cpp's events, so that limits hold while the text is read, not after.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  TreeBuilder(const std::string& name, const YamlLimits& limits)
+      : file_(std::make_shared<const std::string>(name)), limits_(limits) {}
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnAnchor(const YAML::Mark& mark, const std::string&) override { refuse(mark, "an anchor ('&')"); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { refuse(mark, "an alias ('*')"); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    add(make(YamlNode::Kind::null, mark, "", anchor));
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    YamlNode node = make(YamlNode::Kind::scalar, mark, tag, anchor);
+    node.scalar = value;
+    node.quoted = tag == "!";
+    add(std::move(node));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(make(YamlNode::Kind::sequence, mark, tag, anchor));
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(make(YamlNode::Kind::map, mark, tag, anchor));
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override {
+    find_duplicates(open_.back());
+    close();
+  }
+
+  Diagnostics diagnostics;
+  YamlNode root;
+
+ private:
+  [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& what) const {
+    throw Error(location(mark),
+                what + " is not allowed in a scene; write the value out, or use `parameters` for numbers");
+  }
+
+  [[nodiscard]] Location location(const YAML::Mark& mark) const {
+    return {*file_, mark.line + 1, mark.column + 1};
+  }
+
+  YamlNode make(YamlNode::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) refuse(mark, "an anchor ('&')");
+    if (!tag.empty() && tag != "?" && tag != "!") refuse(mark, "a tag ('!')");
+    if (++count_ > limits_.nodes) {
+      throw Error(location(mark),
+                  fmt::format("the file holds more than {} values; meshes and tables belong in files "
+                              "of their own",
+                              limits_.nodes));
+    }
+    YamlNode node;
+    node.kind = kind;
+    node.file = file_;
+    node.line = mark.line + 1;
+    node.column = mark.column + 1;
+    return node;
+  }
+
+  void open(YamlNode node) {
+    if (static_cast<int>(open_.size()) >= limits_.depth) {
+      throw Error(node.where(),
+                  fmt::format("nested more than {} levels deep; no scene needs that", limits_.depth));
+    }
+    open_.push_back(std::move(node));
+  }
+
+  void close() {
+    YamlNode node = std::move(open_.back());
+    open_.pop_back();
+    add(std::move(node));
+  }
+
+  void add(YamlNode node) {
+    if (open_.empty()) {
+      root = std::move(node);
+      return;
+    }
+    YamlNode& parent = open_.back();
+    const bool is_key = parent.kind == YamlNode::Kind::map && parent.keys.size() == parent.items.size();
+    if (is_key && node.kind != YamlNode::Kind::scalar) {
+      throw Error(node.where(), fmt::format("found {} as a key; expected a word", node.found()));
+    }
+    (is_key ? parent.keys : parent.items).push_back(std::move(node));
+  }
+
+  void find_duplicates(const YamlNode& map) {
+    std::map<std::string, const YamlNode*> first;
+    for (const YamlNode& key : map.keys) {
+      const auto [it, is_new] = first.emplace(key.scalar, &key);
+      if (is_new) continue;
+      diagnostics.error(key.where(),
+                        fmt::format("key {} is given twice (first in line {}); remove one of them",
+                                    key.found(), it->second->line));
+    }
+  }
+
+  std::shared_ptr<const std::string> file_;
+  YamlLimits limits_;
+  std::vector<YamlNode> open_;
+  std::size_t count_ = 0;
+};
+
+void check_text(const std::string& text, const std::string& name, const YamlLimits& limits) {
+  if (text.size() > limits.bytes) {
+    throw Error({name, 0, 0},
+                fmt::format("the file has {} bytes, a scene may have at most {}; meshes and tables belong "
+                            "in files of their own",
+                            text.size(), limits.bytes));
+  }
+  const std::size_t bad = first_bad_byte(text);
+  if (bad == std::string::npos) return;
+  throw Error(place_of(text, bad, name),
+              fmt::format("byte 0x{:02x} is no printable UTF-8 text; is this a scene file, saved as UTF-8?",
+                          static_cast<unsigned char>(text[bad])));
+}
+
+}  // namespace
+
+YamlNode parse_yaml(const std::string& text, const std::string& name, const YamlLimits& limits) {
+  check_text(text, name, limits);
+  TreeBuilder builder(name, limits);
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    parser.HandleNextDocument(builder);
+    TreeBuilder rest(name, limits);
+    if (parser.HandleNextDocument(rest)) {
+      throw Error(rest.root.where(), "a second YAML document starts here ('---'); a scene is one document");
+    }
+  } catch (const YAML::Exception& e) {
+    throw Error({name, e.mark.is_null() ? 0 : e.mark.line + 1, e.mark.is_null() ? 0 : e.mark.column + 1},
+                "not valid YAML: " + e.msg);
+  }
+  builder.diagnostics.throw_if_errors();
+  return std::move(builder.root);
+}
+
+}  // namespace seam

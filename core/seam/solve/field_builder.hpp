@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+
+/// Collects what a physics declares and turns it into domains of the problem.
+class FieldBuilder final : public FieldSetup {
+ public:
+  FieldBuilder(FieldEntry& entry, std::vector<std::pair<std::shared_ptr<const IntegrationDomain>,
+                                                        std::vector<BoundTerm>>>& domains)
+      : entry_(entry), domains_(domains) {}
+  /// Hands the collected terms over.
+  void finish();
+
+  [[nodiscard]] int dimension() const override { return entry_.shape->dimension(); }
+  [[nodiscard]] const std::string& field_name() const override { return entry_.name; }
+  void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
+  void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
+                         std::vector<std::string> operands) override;
+  void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) override;
+  void prescribe(const std::string& boundary, const std::string& unknown, int component, Expression value,
+                 const Location& where) override;
+  void set_initial(const std::string& unknown, int component, Expression value) override;
+  void set_initial_rate(const std::string& unknown, int component, Expression value) override;
+  void add_output(const std::string& name, std::shared_ptr<const Term> quantity,
+                  std::vector<std::string> operands) override;
+  void add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
+                    std::vector<std::string> operands) override;
+  [[nodiscard]] Moments moments() const override;
+
+ private:
+  [[nodiscard]] int highest_order() const;
+  FieldEntry& entry_;
+  std::vector<std::pair<std::shared_ptr<const IntegrationDomain>, std::vector<BoundTerm>>>& domains_;
+  std::map<int, std::vector<BoundTerm>> cell_terms_;  ///< by degree of the quadrature
+  std::map<std::pair<std::string, int>, std::vector<BoundTerm>> boundary_terms_;
+  std::map<int, std::vector<BoundTerm>> face_terms_;
+};
+
+/// Degree a quadrature on the cells of `field` must integrate exactly for this term.
+int cell_degree(const Field& field, const Term& term);
+
+/// Nodes of a block on a named boundary (all of them for ""): local numbers, ascending.
+std::vector<int> boundary_nodes(const Field& field, int block, const std::string& boundary);
+
+}  // namespace seam

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/solve/newton.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "seam/base/stopwatch.hpp"
+
+namespace seam {
+
+/// Largest residual of an unknown relative to what its equations are made of.
+Newton::Size Newton::measure() const {
+  Size size{0, ""};
+  Assembler& assembler = problem_.assembler();
+  for (const FieldEntry& entry : problem_.fields())
+    for (const Unknown& unknown : entry.field->unknowns()) {
+      const Field::Place place = entry.field->place(unknown.name);
+      const Block& block = entry.field->blocks()[place.block];
+      double residual = 0, magnitude = 0;
+      for (int node = 0; node < block.space->owned_nodes(); ++node) {
+        const int row = assembler.row(*entry.field, place.block, node, place.offset);
+        if (row < 0) continue;
+        for (int c = 0; c < place.components; ++c) {
+          residual += std::pow(assembler.residual()[row + c], 2);
+          magnitude += std::pow(assembler.magnitude()[row + c], 2);
+        }
+      }
+      std::vector<double> sums{residual, magnitude};
+      problem_.communicator().sum(sums);
+      if (!std::isfinite(sums[0])) return {sums[0], entry.name + "." + unknown.name};
+      // Without any contribution the unknown's equations hold.
+      const double relative = sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
+      if (relative > size.residual) size = {relative, entry.name + "." + unknown.name};
+    }
+  return size;
+}
+
+NewtonReport Newton::solve(const TimePoint& at) {
+  NewtonReport report;
+  std::vector<double> increment;
+  double last = 0;
+  for (int iteration = 0;; ++iteration) {
+    NewtonIteration& entry = report.history.emplace_back();
+    double factor = 1;
+    if (iteration > 0) {
+      if (!take(at, increment, last, factor)) {
+        report.reason = fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
+        return report;
+      }
+    }
+    entry.damping = factor;
+    entry.space_changed = problem_.update_spaces();
+    if (iteration == 0 || entry.space_changed) problem_.assembler().assemble(at, true);
+    const Size size = measure();
+    entry.residual = size.residual;
+    entry.worst = size.worst;
+    last = size.residual;
+    if (!std::isfinite(size.residual)) {
+      report.reason = fmt::format("the residual of {} is not finite at the start of the step", size.worst);
+      return report;
+    }
+    if (size.residual <= options_.tolerance && !entry.space_changed && !problem_.assembler().prescribed_pending()) {
+      report.converged = true;
+      return report;
+    }
+    if (iteration == options_.maximum_iterations) {
+      report.reason = fmt::format("not converged after {} iterations: relative residual {:.2e} of {}, tolerance {:.0e}",
+                                  iteration, size.residual, size.worst, options_.tolerance);
+      return report;
+    }
+    SolveReport linear;
+    solve_linear(increment, linear);
+    entry.linear_iterations = linear.iterations;
+    entry.linear_residual = linear.relative_residual;
+    report.linear_seconds += linear.setup_seconds + linear.solve_seconds;
+  }
+}
+
+/// Adds the increment, or a part of it, and assembles there. False when no part is admissible.
+bool Newton::take(const TimePoint& at, const std::vector<double>& increment, double& residual, double& factor) {
+  constexpr double blow_up = 1e4;
+  const Problem::Snapshot before = problem_.snapshot();
+  for (factor = 1; factor > 1e-3; factor /= 2) {
+    problem_.assembler().add_increment(increment, factor);
+    problem_.update_rates(at);
+    problem_.assembler().assemble(at, true);
+    const double size = measure().residual;
+    const bool much_larger = size > blow_up * residual && size > 1e-3;
+    if (std::isfinite(size) && !(options_.damping && much_larger && residual > 0 && factor > 0.1)) return true;
+    if (!options_.damping) return false;
+    problem_.restore(before);
+  }
+  return false;
+}
+
+void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
+  Assembler& assembler = problem_.assembler();
+  try {
+    report = solver_.solve(assembler.matrix(), assembler.equation_blocks(), assembler.right_side(), increment);
+  } catch (const SingularMatrix& singular) {
+    const std::string who = describe_unsupported(problem_, singular.equations);
+    if (who.empty()) throw;
+    throw SingularMatrix(std::string(singular.what()) + "\n" + who, singular.equations);
+  }
+}
+
+void Newton::solve_initial_rates(double time) {
+  TimePoint at = time_point(time, 0, 1);
+  at.initial_rates = true;
+  problem_.update_spaces();
+  problem_.assembler().assemble(at, true);
+  std::vector<double> increment;
+  SolveReport report;
+  solve_linear(increment, report);
+  problem_.add_initial_rates(increment);
+}
+
+}  // namespace seam

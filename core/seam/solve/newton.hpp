@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/linear/linear_solver.hpp"
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+
+struct NewtonOptions {
+  double tolerance = 1e-8;      ///< on each unknown's residual, relative to the sum of its absolute contributions
+  int maximum_iterations = 25;
+  bool damping = true;          ///< shorten steps that lead to an inadmissible state or a much larger residual
+};
+
+/// One iteration, as it is written to the summary.
+struct NewtonIteration {
+  double residual = 0;    ///< largest of the unknowns' relative residuals
+  std::string worst;      ///< "field.unknown" it belongs to
+  double damping = 1;     ///< part of the increment that was taken to get here
+  int linear_iterations = 0;
+  double linear_residual = 0;
+  bool space_changed = false;
+};
+
+struct NewtonReport {
+  bool converged = false;
+  std::string reason;     ///< when not converged
+  std::vector<NewtonIteration> history;
+  double linear_seconds = 0;
+};
+
+/// Newton's method for one step, with an exact tangent (thesis 2.3, (2.126)-(2.128)).
+class Newton {
+ public:
+  Newton(Problem& problem, LinearSolver& solver, NewtonOptions options)
+      : problem_(problem), solver_(solver), options_(options) {}
+
+  /// Solves for the states at the end of the step. On failure the states are left as they are: rewind them.
+  /// @throws Error when the system is singular, naming the field that is not held
+  NewtonReport solve(const TimePoint& at);
+  /// Solves for the rates that the initial values imply (needed by theta < 1).
+  void solve_initial_rates(double time);
+
+ private:
+  struct Size {
+    double residual;
+    std::string worst;
+  };
+  [[nodiscard]] Size measure() const;
+  bool take(const TimePoint& at, const std::vector<double>& increment, double& residual, double& factor);
+  void solve_linear(std::vector<double>& increment, SolveReport& report);
+  Problem& problem_;
+  LinearSolver& solver_;
+  NewtonOptions options_;
+};
+
+/// Names the fields that can move without resistance in the present matrix, one line each; "" if none can.
+std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations);
+
+}  // namespace seam

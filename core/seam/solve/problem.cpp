@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/solve/problem.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "seam/solve/field_builder.hpp"
+
+namespace seam {
+namespace {
+
+/// The mesh of a body without deformation: one point at the centre of its shape.
+std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& builder) {
+  auto data = std::make_shared<MeshData>();
+  data->dimension = shape.dimension();
+  data->type = CellType::point;
+  const Moments m = builder.moments();
+  data->coordinates.assign(m.centre, m.centre + shape.dimension());
+  data->cells = {0};
+  return std::make_shared<Mesh>(shape.name(), data, shape.communicator());
+}
+
+}  // namespace
+
+Field& Problem::add_field(const std::string& name, std::shared_ptr<const Mesh> mesh, std::unique_ptr<Physics> physics) {
+  FieldEntry& entry = fields_.emplace_back();
+  entry.name = name;
+  entry.shape = mesh;
+  entry.mesh = mesh;
+  entry.physics = std::move(physics);
+  FieldBuilder builder(entry, domains_);
+  if (entry.physics->support() == Support::point) entry.mesh = point_mesh(*mesh, builder);
+  entry.field = std::make_unique<Field>(name, *entry.mesh, entry.physics->unknowns(mesh->dimension()));
+  entry.physics->build(builder);
+  builder.finish();
+  return *entry.field;
+}
+
+void Problem::add_coupling(std::shared_ptr<const IntegrationDomain> interface, std::vector<BoundTerm> terms) {
+  domains_.emplace_back(std::move(interface), std::move(terms));
+}
+
+void Problem::finish() {
+  std::vector<Field*> fields;
+  for (FieldEntry& entry : fields_) {
+    for (const PrescribedCondition& condition : entry.conditions) {
+      Block& block = entry.field->blocks()[condition.block];
+      for (const int node : condition.nodes)
+        block.prescribed[static_cast<std::size_t>(node) * block.size + condition.component] = 1;
+    }
+    for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
+    fields.push_back(entry.field.get());
+  }
+  assembler_ = std::make_unique<Assembler>(fields, communicator_);
+  for (const auto& [domain, terms] : domains_) assembler_->add(domain, terms);
+  assembler_->rebuild();
+}
+
+FieldEntry& Problem::field(const std::string& name) {
+  std::vector<std::string> names;
+  for (FieldEntry& entry : fields_) {
+    if (entry.name == name) return entry;
+    names.push_back(entry.name);
+  }
+  throw Error(fmt::format("there is no field '{}'; the scene has: {}", name, fmt::join(names, ", ")));
+}
+
+bool Problem::has_rates() const {
+  for (const FieldEntry& entry : fields_)
+    for (const Unknown& unknown : entry.field->unknowns())
+      if (unknown.time_order > 0) return true;
+  return false;
+}
+
+void Problem::initialise(double time) {
+  for (FieldEntry& entry : fields_) {
+    const int dim = entry.mesh->dimension();
+    for (const auto& initial : entry.initial) {
+      Block& block = entry.field->blocks()[initial.block];
+      auto& target = initial.rate ? block.now.rate : block.now.value;
+      for (int node = 0; node < block.space->nodes(); ++node)
+        target[static_cast<std::size_t>(node) * block.size + initial.component] =
+            initial.value(block.space->position(node), dim, time);
+    }
+  }
+  set_prescribed(time);
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks()) {
+      for (std::size_t i = 0; i < block.prescribed.size(); ++i)
+        if (block.prescribed[i]) block.now.value[i] = block.prescribed_value[i];
+      block.old = block.now;
+    }
+}
+
+void Problem::add_initial_rates(const std::vector<double>& increment) {
+  for (FieldEntry& entry : fields_)
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
+      Block& block = entry.field->blocks()[b];
+      for (int node = 0; node < block.space->owned_nodes(); ++node)
+        for (int c = 0; c < block.size; ++c) {
+          const int row = assembler_->row(*entry.field, static_cast<int>(b), node, c);
+          if (row < 0) continue;
+          std::vector<double>* levels[3] = {&block.now.value, &block.now.rate, &block.now.second_rate};
+          (*levels[block.time_order[c]])[static_cast<std::size_t>(node) * block.size + c] += increment[row];
+        }
+      for (auto* level : {&block.now.value, &block.now.rate, &block.now.second_rate})
+        block.space->halo().update(*level, block.size);
+      block.old = block.now;
+    }
+}
+
+void Problem::set_prescribed(double time) {
+  for (FieldEntry& entry : fields_) {
+    for (const PrescribedCondition& condition : entry.conditions) {
+      Block& block = entry.field->blocks()[condition.block];
+      for (const int node : condition.nodes)
+        block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
+            condition.value(block.space->position(node), entry.mesh->dimension(), time);
+    }
+    for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed_value, block.size);
+  }
+}
+
+void Problem::begin_step(const TimePoint& at) {
+  set_prescribed(at.time);
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks()) {
+      block.old = block.now;
+      if (at.step == 0) continue;
+      // A body in free motion goes on as it moves; whatever relaxes starts from where it is.
+      for (std::size_t i = 0; i < block.now.value.size(); ++i)
+        if (block.time_order[i % block.size] == 2 && !block.prescribed[i])
+          block.now.value[i] += at.step * block.now.rate[i];
+    }
+  update_rates(at);
+}
+
+void Problem::update_rates(const TimePoint& at) {
+  const double keep = (1 - at.theta) / at.theta;
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks())
+      for (std::size_t i = 0; i < block.now.value.size(); ++i) {
+        const int order = block.time_order[i % block.size];
+        if (order == 0 || at.step == 0) continue;
+        block.now.rate[i] =
+            at.rate_factor * (block.now.value[i] - block.old.value[i]) - keep * block.old.rate[i];
+        if (order == 2)
+          block.now.second_rate[i] =
+              at.rate_factor * (block.now.rate[i] - block.old.rate[i]) - keep * block.old.second_rate[i];
+      }
+}
+
+bool Problem::update_spaces() {
+  bool changed = false;
+  for (const SpaceUpdate& update : space_updates_) changed |= update();
+  if (changed) assembler_->rebuild();
+  return changed;
+}
+
+Problem::Snapshot Problem::snapshot() const {
+  Snapshot states;
+  for (const FieldEntry& entry : fields_)
+    for (const Block& block : entry.field->blocks()) states.push_back(block.now);
+  return states;
+}
+
+void Problem::restore(const Snapshot& states) {
+  std::size_t s = 0;
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks()) block.now = states[s++];
+}
+
+TimePoint time_point(double time, double step, double theta) {
+  TimePoint at;
+  at.time = time;
+  at.step = step;
+  at.theta = theta;
+  if (step > 0) {
+    at.rate_factor = 1 / (theta * step);
+    at.second_rate_factor = at.rate_factor * at.rate_factor;
+  }
+  return at;
+}
+
+}  // namespace seam

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/assembly/assembler.hpp"
+#include "seam/assembly/domains.hpp"
+#include "seam/interface/interface.hpp"
+#include "seam/physics/physics.hpp"
+
+namespace seam {
+
+/// A quantity of a field, for pictures, probes or time series.
+struct FieldQuantity {
+  std::string name;
+  std::shared_ptr<const Term> term;
+  std::vector<std::string> operands;
+};
+
+/// A prescribed component of an unknown on a boundary.
+struct PrescribedCondition {
+  std::string boundary;
+  std::string unknown;
+  int block;
+  int component;  ///< within the block
+  std::vector<int> nodes;
+  Expression value;
+  Location where;
+};
+
+/// A field with its physics.
+struct FieldEntry {
+  std::string name;
+  std::shared_ptr<const Mesh> shape;  ///< the mesh the scene gives it
+  std::shared_ptr<const Mesh> mesh;   ///< the mesh its unknowns live on
+  std::unique_ptr<Physics> physics;
+  std::unique_ptr<Field> field;
+  std::vector<PrescribedCondition> conditions;
+  struct Initial {
+    int block, component;
+    Expression value;
+    bool rate;
+  };
+  std::vector<Initial> initial;
+  std::vector<FieldQuantity> outputs, integrals;
+};
+
+/// All fields and terms of a scene as one nonlinear system, and the states they are in.
+class Problem {
+ public:
+  explicit Problem(const Communicator& communicator) : communicator_(communicator) {}
+
+  /// Adds a field and lets its physics declare its terms. Collective.
+  /// @throws Error when two conditions claim the same unknown on the same boundary
+  Field& add_field(const std::string& name, std::shared_ptr<const Mesh> mesh, std::unique_ptr<Physics> physics);
+  /// Adds terms on an interface between fields.
+  void add_coupling(std::shared_ptr<const IntegrationDomain> interface, std::vector<BoundTerm> terms);
+  /// Called before each Newton iteration; returns true when it changed active unknowns, domains or prescribed
+  /// values, after which the system is rebuilt. The return value must be the same on all ranks.
+  using SpaceUpdate = std::function<bool()>;
+  void add_space_update(SpaceUpdate update) { space_updates_.push_back(std::move(update)); }
+
+  /// Call once everything is added. Collective.
+  void finish();
+
+  [[nodiscard]] Assembler& assembler() { return *assembler_; }
+  [[nodiscard]] const Communicator& communicator() const { return communicator_; }
+  [[nodiscard]] std::vector<FieldEntry>& fields() { return fields_; }
+  [[nodiscard]] const std::vector<FieldEntry>& fields() const { return fields_; }
+  [[nodiscard]] FieldEntry& field(const std::string& name);
+  /// True when some unknown has a rate, so that time matters.
+  [[nodiscard]] bool has_rates() const;
+
+  /// Sets the initial values and rates.
+  void initialise(double time);
+  /// True when the scheme needs rates at the start that the scene does not give.
+  [[nodiscard]] bool needs_initial_rates(double theta) const { return theta < 1 && has_rates(); }
+  /// Adds an increment of the highest rates (of the value, where an unknown has none): the solution of the
+  /// system assembled with TimePoint::initial_rates.
+  void add_initial_rates(const std::vector<double>& increment);
+  /// Makes the present state the old one, predicts, and sets the prescribed values at the end of the step.
+  void begin_step(const TimePoint& at);
+  /// Lets rates follow the values as the time scheme says.
+  void update_rates(const TimePoint& at);
+  /// Runs the space updates and rebuilds where needed; returns whether it did.
+  bool update_spaces();
+
+  /// All states of all fields; what a failed step is rewound to.
+  using Snapshot = std::vector<NodalState>;
+  [[nodiscard]] Snapshot snapshot() const;
+  void restore(const Snapshot& states);
+
+ private:
+  void set_prescribed(double time);
+  Communicator communicator_;
+  std::vector<FieldEntry> fields_;
+  std::vector<std::pair<std::shared_ptr<const IntegrationDomain>, std::vector<BoundTerm>>> domains_;
+  std::vector<SpaceUpdate> space_updates_;
+  std::unique_ptr<Assembler> assembler_;
+};
+
+/// The one-step-theta scheme at the end of a step; step 0 means a static problem.
+TimePoint time_point(double time, double step, double theta);
+
+}  // namespace seam

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <type_traits>
+
+namespace seam {
+
+/// A number that carries its derivatives with respect to n inputs (forward mode). Nests: Fad<n, Fad<m>> holds
+/// second derivatives. Plain loops over a fixed array vectorise; see docs/decisions for the measurement
+/// against a library type.
+template <int n, class T = double>
+struct Fad {
+  T v{};
+  T d[n];
+
+  Fad() : Fad(T(0.0)) {}
+  // Numbers convert silently, so that kernels read like formulas.
+  Fad(const T& value) : v(value) {
+    for (int i = 0; i < n; ++i) d[i] = T(0.0);
+  }
+  template <class S>
+    requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>)
+  Fad(S value) : Fad(T(static_cast<double>(value))) {}
+  /// Input number i.
+  Fad(const T& value, int i) : Fad(value) { d[i] = T(1.0); }
+
+  Fad& operator+=(const Fad& o) {
+    v += o.v;
+    for (int i = 0; i < n; ++i) d[i] += o.d[i];
+    return *this;
+  }
+  Fad& operator-=(const Fad& o) {
+    v -= o.v;
+    for (int i = 0; i < n; ++i) d[i] -= o.d[i];
+    return *this;
+  }
+  Fad& operator*=(const Fad& o) { return *this = *this * o; }
+  Fad& operator/=(const Fad& o) { return *this = *this / o; }
+
+  friend Fad operator-(const Fad& a) { return chain(a, -a.v, T(-1.0)); }
+  friend Fad operator+(Fad a, const Fad& b) { return a += b; }
+  friend Fad operator-(Fad a, const Fad& b) { return a -= b; }
+  friend Fad operator*(const Fad& a, const Fad& b) {
+    Fad r(Raw{});
+    r.v = a.v * b.v;
+    for (int i = 0; i < n; ++i) r.d[i] = a.v * b.d[i] + b.v * a.d[i];
+    return r;
+  }
+  friend Fad operator/(const Fad& a, const Fad& b) {
+    const T inverse = T(1.0) / b.v;
+    Fad r(Raw{});
+    r.v = a.v * inverse;
+    for (int i = 0; i < n; ++i) r.d[i] = (a.d[i] - r.v * b.d[i]) * inverse;
+    return r;
+  }
+  friend Fad operator+(double a, Fad b) { return b.v += a, b; }
+  friend Fad operator+(Fad a, double b) { return a.v += b, a; }
+  friend Fad operator-(Fad a, double b) { return a.v -= b, a; }
+  friend Fad operator-(double a, const Fad& b) { return chain(b, a - b.v, T(-1.0)); }
+  friend Fad operator*(double a, const Fad& b) { return chain(b, a * b.v, T(a)); }
+  friend Fad operator*(const Fad& a, double b) { return chain(a, a.v * b, T(b)); }
+  friend Fad operator/(const Fad& a, double b) { return a * (1.0 / b); }
+  friend Fad operator/(double a, const Fad& b) {
+    const T value = a / b.v;
+    return chain(b, value, -value / b.v);
+  }
+
+  friend bool operator<(const Fad& a, const Fad& b) { return a.v < b.v; }
+  friend bool operator>(const Fad& a, const Fad& b) { return b.v < a.v; }
+  friend bool operator<=(const Fad& a, const Fad& b) { return !(b.v < a.v); }
+  friend bool operator>=(const Fad& a, const Fad& b) { return !(a.v < b.v); }
+
+  friend Fad sqrt(const Fad& a) {
+    using std::sqrt;
+    const T value = sqrt(a.v);
+    return chain(a, value, 0.5 / value);
+  }
+  friend Fad exp(const Fad& a) {
+    using std::exp;
+    const T value = exp(a.v);
+    return chain(a, value, value);
+  }
+  friend Fad expm1(const Fad& a) {
+    using std::exp, std::expm1;
+    return chain(a, expm1(a.v), exp(a.v));
+  }
+  friend Fad log(const Fad& a) {
+    using std::log;
+    return chain(a, log(a.v), 1.0 / a.v);
+  }
+  friend Fad sin(const Fad& a) {
+    using std::cos, std::sin;
+    return chain(a, sin(a.v), cos(a.v));
+  }
+  friend Fad cos(const Fad& a) {
+    using std::cos, std::sin;
+    return chain(a, cos(a.v), -sin(a.v));
+  }
+  friend Fad tanh(const Fad& a) {
+    using std::tanh;
+    const T value = tanh(a.v);
+    return chain(a, value, 1.0 - value * value);
+  }
+  friend Fad atan2(const Fad& y, const Fad& x) {
+    using std::atan2;
+    const T square = x.v * x.v + y.v * y.v;
+    Fad r(Raw{});
+    r.v = atan2(y.v, x.v);
+    for (int i = 0; i < n; ++i) r.d[i] = (x.v * y.d[i] - y.v * x.d[i]) / square;
+    return r;
+  }
+  friend Fad pow(const Fad& a, double exponent) {
+    using std::pow;
+    const T value = pow(a.v, exponent);
+    // One call instead of two, except where it would be 0/0.
+    if (is_zero(a.v)) return chain(a, value, exponent * pow(a.v, exponent - 1));
+    return chain(a, value, exponent * value / a.v);
+  }
+  friend Fad abs(const Fad& a) { return a.v < T(0.0) ? -a : a; }
+  friend Fad max(const Fad& a, const Fad& b) { return a.v < b.v ? b : a; }
+  friend Fad min(const Fad& a, const Fad& b) { return b.v < a.v ? b : a; }
+
+ private:
+  struct Raw {};
+  static bool is_zero(const T& t) { return !(t < T(0.0)) && !(T(0.0) < t); }
+  explicit Fad(Raw) {}
+  /// f(a), given its value and slope.
+  static Fad chain(const Fad& a, const T& value, const T& slope) {
+    Fad r(Raw{});
+    r.v = value;
+    for (int i = 0; i < n; ++i) r.d[i] = slope * a.d[i];
+    return r;
+  }
+};
+
+/// The plain value behind any scalar type.
+inline double plain(double v) { return v; }
+template <int n, class T>
+double plain(const Fad<n, T>& a) {
+  return plain(a.v);
+}
+
+}  // namespace seam

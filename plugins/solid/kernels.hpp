@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "seam/physics/potential.hpp"
+#include "seam/scene/expression.hpp"
+#include "seam/term/kernel_term.hpp"
+
+/// The weak form of a hyperelastic body at finite strain, thesis (2.22) and (2.108), term by term.
+namespace seam::solid {
+
+/// What a material sees of a deformation gradient, and what is needed to turn its answer into a stress.
+template <int dim, class T>
+struct Deformation {
+  Mat<dim, dim, T> f;         ///< deformation gradient; F33 = 1 in the plane
+  Mat<dim, dim, T> cofactor;  ///< J F^-T
+  std::array<T, 3> invariant; ///< I1, I2, J of C = F^T F in three dimensions
+
+  explicit Deformation(const Mat<dim, dim, T>& displacement_gradient) : f(displacement_gradient) {
+    for (int i = 0; i < dim; ++i) f(i, i) += 1.0;
+    cofactor = seam::cofactor(f);
+    invariant[2] = determinant(f, cofactor);
+    invariant[0] = inner(f, f);
+    if constexpr (dim == 2) {
+      invariant[0] += 1.0;
+      invariant[1] = invariant[0] - 1.0 + invariant[2] * invariant[2];
+    } else {
+      // I2 of C is the squared norm of cof F.
+      invariant[1] = inner(cofactor, cofactor);
+    }
+  }
+
+  /// First Piola-Kirchhoff stress: sum of dpsi/dI_k dI_k/dF.
+  [[nodiscard]] Mat<dim, dim, T> stress(const std::array<T, 3>& slope) const {
+    Mat<dim, dim, T> p = (2.0 * slope[0]) * f + slope[2] * cofactor;
+    add_second_invariant(slope[1], p);
+    return p;
+  }
+  /// p += slope dI2/dF; many materials do not depend on I2.
+  void add_second_invariant(const T& slope, Mat<dim, dim, T>& p) const {
+    if constexpr (std::is_same_v<T, double>) {
+      if (slope == 0) return;
+    } else {
+      bool none = plain(slope) == 0;
+      for (const double d : slope.d) none = none && d == 0;
+      if (none) return;
+    }
+    if constexpr (dim == 2)
+      p += (2.0 * slope) * f + (2.0 * slope * invariant[2]) * cofactor;
+    else
+      p += (2.0 * slope) * (invariant[0] * f - f * (transpose(f) * f));
+  }
+};
+
+using u = Vector<0>;
+using PotentialPointer = std::shared_ptr<const Potential>;
+
+/// (grad0 du, P) of thesis (2.22) with P = d psi / dF.
+struct InternalForce {
+  using Reads = Slots<Gradient<u>>;
+  using Tests = Slots<Gradient<u>>;
+  PotentialPointer material;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    r.gradient(u{}) += d.stress(gradient<3>(*material, d.invariant));
+  }
+};
+
+/// The same for nearly incompressible bodies: stationary point of psi(Fbar) + p (J - Theta) with
+/// Fbar = (Theta/J)^(1/3) F, in displacement, pressure and dilation Theta - 1 (Simo, Taylor and Pister 1985).
+struct MixedInternalForce {
+  using p = Scalar<1>;
+  using dilation = Scalar<2>;
+  using Reads = Slots<Gradient<u>, Value<p>, Value<dilation>>;
+  using Tests = Slots<Gradient<u>, Value<p>, Value<dilation>>;
+  PotentialPointer material;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    using std::pow;
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T theta = 1.0 + s.value(dilation{});
+    const T& j = d.invariant[2];
+    const T a = pow(theta / j, 2.0 / 3);
+    const std::array<T, 3> bar{a * d.invariant[0], a * a * d.invariant[1], theta};
+    const std::array<T, 3> slope = gradient<3>(*material, bar);
+    // The isochoric part of the energy is homogeneous of degree 0 in J and of degree 2/3, 4/3 in Theta.
+    const T isochoric = (2.0 / 3) * slope[0] * bar[0] + (4.0 / 3) * slope[1] * bar[1];
+    Mat<dim, dim, T> stress = (2.0 * a * slope[0]) * d.f + (s.value(p{}) - isochoric / j) * d.cofactor;
+    d.add_second_invariant(a * a * slope[1], stress);
+    r.gradient(u{}) += stress;
+    r.value(p{}) += j - theta;
+    r.value(dilation{}) += isochoric / theta + slope[2] - s.value(p{});
+  }
+};
+
+/// (du, rho0 d2u/dt2)
+struct Inertia {
+  using Reads = Slots<SecondRate<u>>;
+  using Tests = Slots<Value<u>>;
+  double density;  ///< kg/m^3 of reference volume
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(u{}) += density * s.second_rate(u{});
+  }
+};
+
+/// -factor (du, b(X, t)): a body force (factor rho0) or a dead traction (factor 1).
+struct Load {
+  using Reads = Slots<>;
+  using Tests = Slots<Value<u>>;
+  std::vector<Expression> load;
+  double factor;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
+    Vec<dim, double> value;
+    for (int i = 0; i < dim; ++i) value[i] = factor * load[i](x.position.c.data(), dim, x.time);
+    r.value(u{}) -= value;
+  }
+};
+
+/// <du, p n> on the current boundary: n da = cof(F) N dA.
+struct FollowerPressure {
+  using Reads = Slots<Gradient<u>>;
+  using Tests = Slots<Value<u>>;
+  Expression pressure;  ///< Pa, positive in compression
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    r.value(u{}) += pressure(x.position.c.data(), dim, x.time) * (d.cofactor * x.normal);
+  }
+};
+
+}  // namespace seam::solid

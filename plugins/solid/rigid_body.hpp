@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "seam/physics/physics.hpp"
+#include "seam/plugin/registry.hpp"
+
+namespace seam::solid {
+
+/// A body that moves without deforming. Its unknowns are the translation of its centre and its rotation (angle
+/// in 2D, rotation vector in 3D); each component is either given as a function of time or follows from mass,
+/// inertia, springs, dashpots and loads.
+class RigidBody final : public Physics {
+ public:
+  explicit RigidBody(const Parameters& parameters) : parameters_(parameters) {}
+  static Schema schema();
+
+  [[nodiscard]] Support support() const override { return Support::point; }
+  [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override;
+  void build(FieldSetup& setup) const override;
+  [[nodiscard]] std::string displacement() const override { return "displacement"; }
+  void displace(int dimension, const double* motion, const double* arm, double* displacement) const override;
+
+ private:
+  /// Highest rate in the equations of motion: 2 with mass, 1 with dashpots alone, else 0.
+  [[nodiscard]] int time_order() const;
+  void prescribe(FieldSetup& setup, const std::string& unknown) const;
+  Parameters parameters_;
+};
+
+}  // namespace seam::solid

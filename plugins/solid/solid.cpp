@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "solid.hpp"
+
+#include "quantities.hpp"
+
+namespace seam::solid {
+namespace {
+
+constexpr const char* unknown_name = "displacement";
+const std::vector<std::string> displacement_only{unknown_name};
+const std::vector<std::string> mixed_unknowns{unknown_name, "pressure", "dilation"};
+
+Schema boundary_schema() {
+  Schema s("A condition on part of the boundary.");
+  s.names("on", "Boundaries of the mesh").naming("boundary");
+  s.vector_expression("displacement", "Prescribed displacement; null leaves a component free").unit("m").optional();
+  s.vector_expression("traction", "Dead load per reference area").unit("Pa").optional();
+  s.expression("pressure", "Load along the current inward normal, per current area").unit("Pa").optional();
+  return s;
+}
+
+}  // namespace
+
+Schema Solid::schema() {
+  Schema s("Deformable body of hyperelastic material at finite strain; plane strain in 2D.");
+  s.reference("mesh", "Its reference shape", "mesh");
+  s.typed("material", "Strain energy", "hyperelastic");
+  s.number("density", "Mass per reference volume; 0 leaves out inertia").unit("kg/m^3").otherwise("0").at_least(0);
+  s.choice("formulation", "`mixed` (with pressure and dilation) does not lock when nearly incompressible; needs order 2",
+           {"displacement", "mixed"})
+      .otherwise("displacement");
+  s.integer("order", "Polynomial order of the displacement").otherwise("1").at_least(1).at_most(2);
+  s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
+  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction", boundary_schema())
+      .otherwise("[]");
+  Schema initial("State at the start");
+  initial.vector_expression("displacement", "Displacement").unit("m").optional();
+  initial.vector_expression("velocity", "Velocity").unit("m/s").optional();
+  s.object("initial", "State at the start; default at rest, undeformed", initial).optional();
+  return s;
+}
+
+Solid::Solid(const Parameters& p, const Registry& registry)
+    : parameters_(p),
+      material_(registry.create<Potential>("hyperelastic", p.object("material"))),
+      density_(p.number("density")),
+      mixed_(p.text("formulation") == "mixed"),
+      order_(static_cast<int>(p.integer("order"))) {
+  if (material_->arguments() != 3)
+    throw Error(p.where("material"), "this material does not take the three invariants I1, I2, J");
+  if (mixed_ && order_ != 2)
+    throw Error(p.where("formulation"),
+                "`formulation: mixed` is stable only with `order: 2` (pressure and dilation of order 1)");
+}
+
+std::vector<Unknown> Solid::unknowns(int dimension) const {
+  std::vector<Unknown> result{{unknown_name, dimension, order_, density_ > 0 ? 2 : 0, "m"}};
+  if (mixed_) {
+    result.push_back({"pressure", 1, 1, 0, "Pa"});
+    result.push_back({"dilation", 1, 1, 0, ""});
+  }
+  return result;
+}
+
+void Solid::build(FieldSetup& setup) const {
+  add_body_terms(setup);
+  for (const Parameters& condition : parameters_.list("boundary")) add_boundary(setup, condition);
+  if (parameters_.has("initial")) {
+    const Parameters& initial = parameters_.object("initial");
+    for (int d = 0; d < setup.dimension(); ++d) {
+      if (initial.has("displacement"))
+        setup.set_initial(unknown_name, d, initial.vector_expression("displacement")[d]);
+      if (initial.has("velocity")) setup.set_initial_rate(unknown_name, d, initial.vector_expression("velocity")[d]);
+    }
+  }
+  add_outputs(setup);
+}
+
+void Solid::add_body_terms(FieldSetup& setup) const {
+  if (mixed_)
+    setup.add_cell_term(make_term(MixedInternalForce{material_}), mixed_unknowns);
+  else
+    setup.add_cell_term(make_term(InternalForce{material_}), displacement_only);
+  if (density_ > 0) setup.add_cell_term(make_term(Inertia{density_}), displacement_only);
+  if (!parameters_.has("body_force")) return;
+  if (density_ == 0)
+    throw Error(parameters_.where("body_force"), "a body force per mass acts on a body without mass: give a `density`");
+  setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), density_}, 1), displacement_only);
+}
+
+void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
+  for (const std::string& name : condition.names("on")) {
+    if (condition.has("displacement"))
+      for (int d = 0; d < setup.dimension(); ++d)
+        if (condition.component_given("displacement", d))
+          setup.prescribe(name, unknown_name, d, condition.vector_expression("displacement")[d],
+                          condition.where("displacement"));
+    if (condition.has("traction"))
+      setup.add_boundary_term(name, make_term(Load{condition.vector_expression("traction"), 1.0}, 1), displacement_only);
+    if (condition.has("pressure"))
+      setup.add_boundary_term(name, make_term(FollowerPressure{condition.expression("pressure")}, 1), displacement_only);
+  }
+}
+
+void Solid::add_outputs(FieldSetup& setup) const {
+  if (mixed_) {
+    setup.add_output("cauchy_stress", make_quantity(MixedCauchyStress{material_}), mixed_unknowns);
+    setup.add_output("von_mises", make_quantity(MixedVonMises{{material_}}), mixed_unknowns);
+  } else {
+    setup.add_output("cauchy_stress", make_quantity(CauchyStress{material_}), displacement_only);
+    setup.add_output("von_mises", make_quantity(VonMises{material_}), displacement_only);
+  }
+  setup.add_integral("strain_energy", make_quantity(StrainEnergy{material_}), displacement_only);
+  setup.add_integral("volume", make_quantity(CurrentVolume{}), displacement_only);
+  if (density_ == 0) return;
+  setup.add_output("velocity", make_quantity(Velocity{}), displacement_only);
+  setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{density_}), displacement_only);
+}
+
+}  // namespace seam::solid

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "kernels.hpp"
+#include "seam/physics/physics.hpp"
+#include "seam/plugin/registry.hpp"
+
+namespace seam::solid {
+
+/// A deformable body of hyperelastic material, statics and dynamics, thesis 2.1.4 and 2.2.3.
+class Solid final : public Physics {
+ public:
+  Solid(const Parameters& parameters, const Registry& registry);
+  static Schema schema();
+
+  [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override;
+  void build(FieldSetup& setup) const override;
+  [[nodiscard]] std::string displacement() const override { return "displacement"; }
+
+ private:
+  void add_body_terms(FieldSetup& setup) const;
+  void add_boundary(FieldSetup& setup, const Parameters& condition) const;
+  void add_outputs(FieldSetup& setup) const;
+
+  Parameters parameters_;
+  PotentialPointer material_;
+  double density_;
+  bool mixed_;
+  int order_;
+};
+
+}  // namespace seam::solid

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "seam/plugin/plugin_host.hpp"
+#include "seam/plugin/registry.hpp"
+#include "seam/scene/scene.hpp"
+
+namespace seam::cli {
+
+/// What the command line returns to the shell.
+enum ExitCode { ok = 0, failed = 1, broken_input = 2, plugin_failure = 3 };
+
+/// One subcommand: its options are declared when it is made, `run` is called when the user chose it.
+struct Command {
+  CLI::App* app;
+  std::function<int()> run;  ///< returns an ExitCode; may throw seam::Error
+};
+
+// One file each.
+Command plugins_command(CLI::App& parent);
+Command check_command(CLI::App& parent);
+Command explain_command(CLI::App& parent);
+Command schema_command(CLI::App& parent);
+Command run_command(CLI::App& parent);
+Command verify_command(CLI::App& parent);
+
+/// A registry with the types that need no plugin.
+Registry builtin_types();
+
+/// Splits the values of `--set a.b=c` for load_scene().
+/// @throws Error when one has no '='.
+Overrides parse_overrides(const std::vector<std::string>& values);
+
+/// Loads the named plugins, or (with `all`) every one that is found and can be used.
+void load_plugins(const std::vector<std::string>& names, bool all, PluginHost& host, Registry& registry);
+
+}  // namespace seam::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What several commands share.
+#include <fmt/format.h>
+
+#include "command.hpp"
+#include "seam/interface/matching.hpp"
+#include "seam/linear/linear_solver.hpp"
+
+namespace seam::cli {
+
+Registry builtin_types() {
+  Registry registry;
+  register_linear_solvers(registry);
+  register_interfaces(registry);
+  return registry;
+}
+
+Overrides parse_overrides(const std::vector<std::string>& values) {
+  Overrides result;
+  for (const std::string& value : values) {
+    const std::size_t equals = value.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Error(
+          fmt::format("error: --set {}: expected key.key=value, as in --set parameters.h=1/32", value));
+    }
+    result.emplace_back(value.substr(0, equals), value.substr(equals + 1));
+  }
+  return result;
+}
+
+void load_plugins(const std::vector<std::string>& names, bool all, PluginHost& host, Registry& registry) {
+  if (!all) return host.load(names, registry);
+  for (const PluginHost::Found& found : host.scan()) {
+    if (!found.why_not().empty()) continue;
+    std::vector<std::string> together = found.info.required_plugins;
+    together.push_back(found.name);
+    try {
+      host.load(together, registry);
+    } catch (const PluginError&) {
+      // Browsing shows what works; `seam plugins` says what does not, and why.
+      continue;
+    }
+  }
+}
+
+}  // namespace seam::cli
