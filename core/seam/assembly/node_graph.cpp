@@ -149,17 +149,16 @@ void NodeGraph::lay_out() {
 
 void NodeGraph::allocate(Matrix& matrix) {
   lay_out();
-  matrix.row_start.assign(1, 0);
-  matrix.column.clear();
-  matrix.column.reserve(value_start_[owned_]);
+  const int unknowns = owned_ == 0 ? 0 : nodes_[owned_ - 1].first + nodes_[owned_ - 1].size;
+  matrix.allocate(unknowns, value_start_[owned_], value_start_.back());
+  std::size_t next = 0;
+  int r = 0;
   for (int row = 0; row < owned_; ++row)
     for (int i = 0; i < nodes_[row].size; ++i) {
       for (std::size_t k = start_[row]; k < start_[row + 1]; ++k)
-        for (int j = 0; j < nodes_[column_[k]].size; ++j) matrix.column.push_back(nodes_[column_[k]].first + j);
-      matrix.row_start.push_back(matrix.column.size());
+        for (int j = 0; j < nodes_[column_[k]].size; ++j) matrix.column[next++] = nodes_[column_[k]].first + j;
+      matrix.row_start[++r] = next;
     }
-  matrix.rows = static_cast<int>(matrix.row_start.size()) - 1;
-  matrix.value.assign(value_start_.back(), 0.0);
   matrix.column_global.clear();
   for (const Node& node : nodes_)
     for (int i = 0; i < node.size; ++i) matrix.column_global.push_back(node.equation + i);
@@ -171,8 +170,8 @@ void NodeGraph::collect_matrix(Matrix& matrix) const {
   std::vector<std::vector<double>> out(sent_nodes_.size());
   for (std::size_t r = 0; r < sent_nodes_.size(); ++r)
     for (const int node : sent_nodes_[r])
-      out[r].insert(out[r].end(), matrix.value.begin() + static_cast<std::ptrdiff_t>(value_start_[node]),
-                    matrix.value.begin() + static_cast<std::ptrdiff_t>(value_start_[node + 1]));
+      out[r].insert(out[r].end(), matrix.value.begin() + value_start_[node],
+                    matrix.value.begin() + value_start_[node + 1]);
   const auto in = communicator_.exchange(out);
   for (std::size_t r = 0; r < in.size(); ++r)
     for (std::size_t k = 0; k < in[r].size(); ++k) matrix.value[received_[r][k]] += in[r][k];

@@ -61,8 +61,8 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
   report.setup_seconds = watch.seconds();
 
   const auto& matrix = preconditioner_->matrix;
-  const auto solution = tpetra_view(matrix->getDomainMap(), x.data());
-  const auto right_side = tpetra_view(matrix->getRangeMap(), const_cast<double*>(b.data()));
+  const auto solution = to_tpetra(matrix->getDomainMap(), x);
+  const auto right_side = to_tpetra(matrix->getRangeMap(), b);
   auto problem = Teuchos::rcp(new Belos::LinearProblem<double, TpetraVector, TpetraOperator>(matrix, solution, right_side));
   problem->setRightPrec(preconditioner_->apply);
   problem->setProblem();
@@ -77,6 +77,7 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
   parameters->set("Verbosity", 0);
   Belos::BlockGmresSolMgr<double, TpetraVector, TpetraOperator> gmres(problem, parameters);
   gmres.solve();
+  from_tpetra(*solution, x);
   report.iterations = gmres.getNumIters();
   preconditioner_->last_iterations = report.iterations;
   if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);

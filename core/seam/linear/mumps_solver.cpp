@@ -70,7 +70,7 @@ void MumpsSolver::analyse(const Matrix& a) {
   m.mumps.nnz_loc = static_cast<MUMPS_INT8>(a.entries());
   m.mumps.irn_loc = m.row.data();
   m.mumps.jcn_loc = m.column.data();
-  m.mumps.a_loc = const_cast<double*>(a.value.data());
+  m.mumps.a_loc = const_cast<double*>(a.value.data);
   m.run(job_analyse);
   if (m.info(1) < 0)
     throw Error(fmt::format("MUMPS could not analyse the matrix of {} unknowns: error {} ({})", a.global_rows, m.info(1),
@@ -80,7 +80,7 @@ void MumpsSolver::analyse(const Matrix& a) {
 
 void MumpsSolver::factorise(const Matrix& a) {
   Instance& m = *instance_;
-  m.mumps.a_loc = const_cast<double*>(a.value.data());
+  m.mumps.a_loc = const_cast<double*>(a.value.data);
   m.run(job_factorise);
   // -8, -9: the work space was too small for the pivoting that turned out to be needed.
   for (int attempt = 0; attempt < 4 && (m.info(1) == -8 || m.info(1) == -9); ++attempt) {

@@ -14,10 +14,11 @@ using TpetraVector = Tpetra::MultiVector<double, int, long long>;
 using TpetraMap = Tpetra::Map<int, long long>;
 using TpetraOperator = Tpetra::Operator<double, int, long long>;
 
-/// A Tpetra matrix on the arrays of `a`, which must outlive it and keep its pattern.
+/// A Tpetra matrix on the arrays of `a`.
 Teuchos::RCP<TpetraMatrix> tpetra_view(const Matrix& a);
 
-/// A vector that shares the memory of `x`.
-Teuchos::RCP<TpetraVector> tpetra_view(const Teuchos::RCP<const TpetraMap>& map, double* x);
+/// A vector with the entries of `x`, and back.
+Teuchos::RCP<TpetraVector> to_tpetra(const Teuchos::RCP<const TpetraMap>& map, const std::vector<double>& x);
+void from_tpetra(const TpetraVector& vector, std::vector<double>& x);
 
 }  // namespace seam

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "seam/linear/kokkos.hpp"
+
 namespace seam {
 
 std::vector<int> partition_points(int dimension, const std::vector<double>& points, const std::vector<double>& weights,
@@ -15,6 +17,7 @@ std::vector<int> partition_points(int dimension, const std::vector<double>& poin
   std::vector<int> part(count, 0);
   if (parts == 1) return part;
 
+  start_kokkos();
   // Every rank solves the same small problem, so no answer needs to travel.
   using Adapter = Zoltan2::BasicVectorAdapter<Zoltan2::BasicUserTypes<double, int, long long>>;
   std::vector<long long> ids(count);
