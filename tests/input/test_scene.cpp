@@ -49,8 +49,8 @@ TEST_CASE("a scene becomes values, with defaults filled in") {
   CHECK(scene.root.object("solver").object("newton").integer("maximum_iterations") == 25);
   CHECK(scene.root.object("solver").object("linear").type() == "direct");
   CHECK_FALSE(scene.root.has("time"));
-  CHECK(scene.root.object("study").map("vary")[0].second.vector("values") ==
-        std::vector<double>{0.25, 0.125});
+  CHECK(scene.root.object("study").map("vary")[0].second.names("values") ==
+        std::vector<std::string>{"1/4", "1/8"});
   CHECK(scene.warnings.all().empty());
   CHECK_THROWS_AS(left.number("mesh"), std::logic_error);
   CHECK_THROWS_AS(left.number("absent"), std::logic_error);

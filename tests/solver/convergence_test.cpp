@@ -81,7 +81,7 @@ TEST_CASE("the time scheme has order 1 for theta = 1 and order 2 for theta = 0.5
   }
 }
 
-TEST_CASE("the mixed form converges with the displacement form's orders, nearly incompressible too") {
+TEST_CASE("the mixed form converges with the displacement form's orders, nearly incompressible too", "[ranks]") {
   Body body;
   body.cell = GENERATE(CellType::quadrilateral, CellType::triangle);
   body.order = 2;

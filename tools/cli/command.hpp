@@ -23,11 +23,21 @@ struct Command {
 
 // One file each.
 Command plugins_command(CLI::App& parent);
+Command plugin_test_command(CLI::App& parent);
 Command check_command(CLI::App& parent);
 Command explain_command(CLI::App& parent);
 Command schema_command(CLI::App& parent);
 Command run_command(CLI::App& parent);
 Command verify_command(CLI::App& parent);
+Command study_command(CLI::App& parent);
+
+/// What an exception means to the user.
+struct Failure {
+  ExitCode code;
+  std::string message;
+};
+/// The exception of the catch block this is called in.
+Failure current_failure();
 
 /// A registry with the types that need no plugin.
 Registry builtin_types();

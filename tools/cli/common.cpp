@@ -3,10 +3,25 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "run.hpp"
 #include "seam/interface/matching.hpp"
 #include "seam/linear/linear_solver.hpp"
 
 namespace seam::cli {
+
+Failure current_failure() {
+  try {
+    throw;
+  } catch (const PluginError& e) {
+    return {plugin_failure, e.what()};
+  } catch (const RunFailure& e) {
+    return {failed, e.what()};
+  } catch (const Error& e) {
+    return {broken_input, e.what()};
+  } catch (const std::exception& e) {
+    return {failed, fmt::format("error: {}", e.what())};
+  }
+}
 
 Registry builtin_types() {
   Registry registry;

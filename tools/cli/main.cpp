@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <exception>
 
 #include "command.hpp"
 
@@ -15,15 +14,10 @@ int run_chosen(const std::vector<Command>& commands) {
     for (const Command& command : commands) {
       if (command.app->parsed()) return command.run();
     }
-  } catch (const seam::PluginError& e) {
-    fmt::print(stderr, "{}\n", e.what());
-    return plugin_failure;
-  } catch (const seam::Error& e) {
-    fmt::print(stderr, "{}\n", e.what());
-    return broken_input;
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "error: {}\n", e.what());
-    return failed;
+  } catch (...) {
+    const Failure failure = current_failure();
+    fmt::print(stderr, "{}\n", failure.message);
+    return failure.code;
   }
   return ok;
 }
@@ -34,8 +28,9 @@ int main(int argc, char** argv) {
   CLI::App app("Seam: multiphysics finite elements with physics in plugins");
   app.require_subcommand(1);
   app.set_version_flag("--version", SEAM_VERSION);
-  const std::vector<Command> commands{plugins_command(app), check_command(app), explain_command(app),
-                                      schema_command(app),  run_command(app),   verify_command(app)};
+  const std::vector<Command> commands{plugins_command(app), plugin_test_command(app), check_command(app), explain_command(app),
+                                      schema_command(app),  run_command(app),   verify_command(app),
+                                      study_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

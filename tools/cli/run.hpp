@@ -33,17 +33,14 @@ struct SceneOutcome {
   [[nodiscard]] bool passed() const;
 };
 
-/// Loads, runs, checks and records a scene; writes summary.json. Collective.
-SceneOutcome run_scene(const SceneRun& run);
-
-/// Starts MPI for the rest of the process.
-class MpiSession {
- public:
-  MpiSession();
-  ~MpiSession();
-  MpiSession(const MpiSession&) = delete;
-  MpiSession& operator=(const MpiSession&) = delete;
-  [[nodiscard]] bool is_root() const;
+/// A scene whose solution failed, though the scene itself is well.
+class RunFailure : public Error {
+  using Error::Error;
 };
+
+/// Loads, runs, checks and records a scene; writes summary.json. Collective.
+/// @throws Error when the scene is broken; RunFailure when its solution fails: then summary.json holds the reason, and
+/// the last good state is in the folder.
+SceneOutcome run_scene(const SceneRun& run);
 
 }  // namespace seam::cli

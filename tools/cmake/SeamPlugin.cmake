@@ -5,6 +5,9 @@
 #   PROVIDES kind:name ...        the types it registers, all of them
 #   [REQUIRES plugin ...])        plugins whose types it builds on
 #
+# Scenes in the folder conformance/ beside its CMakeLists.txt are what `seam plugin test` checks it on; they go where
+# the plugin goes.
+#
 # Makes the target seam_plugin_<name>, the file lib/plugins/libseam_<name>.so in the build folder, and installs it
 # into the folder where an installed Seam looks for plugins. It may link further libraries as any target does.
 function(seam_add_plugin name)
@@ -32,4 +35,10 @@ function(seam_add_plugin name)
     ${target} PROPERTIES OUTPUT_NAME seam_${name} PREFIX lib SUFFIX .so CXX_VISIBILITY_PRESET hidden
                          LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib/plugins)
   install(TARGETS ${target} LIBRARY DESTINATION ${SEAM_PLUGIN_DIR})
+  set(scenes ${CMAKE_CURRENT_SOURCE_DIR}/conformance)
+  if(IS_DIRECTORY ${scenes})
+    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/lib/plugins/conformance)
+    file(CREATE_LINK ${scenes} ${CMAKE_BINARY_DIR}/lib/plugins/conformance/${name} SYMBOLIC)
+    install(DIRECTORY ${scenes}/ DESTINATION ${SEAM_PLUGIN_DIR}/conformance/${name})
+  endif()
 endfunction()

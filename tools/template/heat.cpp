@@ -3,57 +3,60 @@
 #include "seam/physics/physics.hpp"
 #include "seam/term/kernel_term.hpp"
 
-namespace example {
-namespace {
+using namespace seam;
+using Temperature = Scalar<0>;
 
-/// capacity dT/dt - div(conductivity grad T) = source, tested with dT: (dT, capacity dT/dt - source) + (grad dT, k grad T).
+/// (dT, capacity dT/dt) + (grad dT, conductivity grad T)
 struct HeatConduction {
-  using T_ = seam::Scalar<0>;
-  using Reads = seam::Slots<seam::Rate<T_>, seam::Gradient<T_>>;
-  using Tests = seam::Slots<seam::Value<T_>, seam::Gradient<T_>>;
+  using Reads = Slots<Rate<Temperature>, Gradient<Temperature>>;
+  using Tests = Slots<Value<Temperature>, Gradient<Temperature>>;
   double conductivity, capacity;
-  seam::Expression source;
   template <int dim, class T>
-  void operator()(const seam::Point<dim>& x, const seam::Trial<dim, T, Reads>& s, seam::Test<dim, T, Tests>& r) const {
-    r.value(T_{}) += capacity * s.rate(T_{}) - source(x.position.c.data(), dim, x.time);
-    r.gradient(T_{}) += conductivity * s.gradient(T_{});
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(Temperature{}) += capacity * s.rate(Temperature{});
+    r.gradient(Temperature{}) += conductivity * s.gradient(Temperature{});
   }
 };
 
-class Heat final : public seam::Physics {
- public:
-  explicit Heat(const seam::Parameters& p) : p_(p) {}
-  std::vector<seam::Unknown> unknowns(int) const override {
-    return {{"temperature", 1, static_cast<int>(p_.integer("order")), p_.number("capacity") > 0 ? 1 : 0, "K"}};
+/// -(dT, source)
+struct HeatSource {
+  using Reads = Slots<>;
+  using Tests = Slots<Value<Temperature>>;
+  Expression source;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
+    r.value(Temperature{}) -= source(x.position.c.data(), dim, x.time);
   }
-  void build(seam::FieldSetup& setup) const override {
-    const HeatConduction kernel{p_.number("conductivity"), p_.number("capacity"), p_.expression("source")};
-    setup.add_cell_term(seam::make_term(kernel), {"temperature"});
-    for (const seam::Parameters& condition : p_.list("boundary"))
-      for (const std::string& name : condition.names("on"))
-        setup.prescribe(name, "temperature", 0, condition.expression("temperature"), condition.where("temperature"));
-  }
-
- private:
-  seam::Parameters p_;
 };
 
-}  // namespace
+struct Heat final : Physics {
+  explicit Heat(const Parameters& p) : parameters(p) {}
+  std::vector<Unknown> unknowns(int) const override {
+    const int time_order = parameters.number("capacity") > 0 ? 1 : 0;
+    return {{"temperature", 1, static_cast<int>(parameters.integer("order")), time_order, "K"}};
+  }
+  void build(FieldSetup& setup) const override {
+    const HeatConduction conduction{parameters.number("conductivity"), parameters.number("capacity")};
+    setup.add_cell_term(make_term(conduction), {"temperature"});
+    setup.add_cell_term(make_term(HeatSource{parameters.expression("source")}, 1), {"temperature"});
+    for (const Parameters& c : parameters.list("boundary"))
+      for (const std::string& name : c.names("on"))
+        setup.prescribe(name, "temperature", 0, c.expression("temperature"), c.where("temperature"));
+  }
+  Parameters parameters;
+};
 
-void declare_heat(seam::Registry& registry) {
-  seam::Schema boundary("A given temperature; elsewhere no heat passes the boundary.");
+void example::declare_heat(Registry& registry) {
+  Schema boundary("A given temperature; elsewhere no heat passes the boundary.");
   boundary.names("on", "Boundaries of the mesh").naming("boundary");
   boundary.expression("temperature", "Its value").unit("K");
-  seam::Schema s("Heat conduction in a body at rest.");
+  Schema s("Heat conduction in a body at rest: capacity dT/dt - div(conductivity grad T) = source.");
   s.reference("mesh", "Its shape", "mesh");
   s.number("conductivity", "Heat flux per temperature gradient").unit("W/(m K)").above(0);
-  s.number("capacity", "Heat stored per volume and kelvin; 0 for a steady state").unit("J/(m^3 K)").otherwise("0").at_least(0);
+  s.number("capacity", "Per volume; 0 for a steady state").unit("J/(m^3 K)").otherwise("0").at_least(0);
   s.expression("source", "Heat produced per volume").unit("W/m^3").otherwise("0");
   s.integer("order", "Polynomial order of the temperature").otherwise("1").at_least(1).at_most(2);
   s.list("boundary", "Conditions on the boundary", boundary).otherwise("[]");
-  registry.add<seam::Physics>("field", "heat", s, [](const seam::Parameters& p, const seam::Registry&) {
-    return std::make_unique<Heat>(p);
-  });
+  registry.add<Physics>("field", "heat", s,
+                        [](const Parameters& p, const Registry&) { return std::make_unique<Heat>(p); });
 }
-
-}  // namespace example

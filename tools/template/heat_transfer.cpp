@@ -14,7 +14,8 @@ struct HeatTransfer {
   using Tests = Reads;
   double transfer;  ///< W/(m^2 K)
   template <int dim, class T>
-  void operator()(const seam::Point<dim>&, const seam::Trial<dim, T, Reads>& s, seam::Test<dim, T, Tests>& r) const {
+  void operator()(const seam::Point<dim>&, const seam::Trial<dim, T, Reads>& s,
+                  seam::Test<dim, T, Tests>& r) const {
     const T q = transfer * (s.value(T0{}) - s.value(T1{}));
     r.value(T0{}) += q;
     r.value(T1{}) -= q;
@@ -41,9 +42,10 @@ void declare_heat_transfer(seam::Registry& registry) {
   seam::Schema s("Heat transfer through the gap between two bodies.");
   s.reference("on", "Interface between the two", "interface");
   s.number("transfer", "Heat flux per temperature difference").unit("W/(m^2 K)").above(0);
-  registry.add<seam::Coupling>("coupling", "heat_transfer", s, [](const seam::Parameters& p, const seam::Registry&) {
-    return std::make_unique<HeatTransferCoupling>(p.number("transfer"));
-  });
+  registry.add<seam::Coupling>("coupling", "heat_transfer", s,
+                               [](const seam::Parameters& p, const seam::Registry&) {
+                                 return std::make_unique<HeatTransferCoupling>(p.number("transfer"));
+                               });
 }
 
 }  // namespace example

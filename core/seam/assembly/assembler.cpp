@@ -130,8 +130,8 @@ void Assembler::scatter_vector(const ElementEvaluator& element) {
       if (*node < 0) continue;
       const int first = graph_.node(*node).first;
       for (int c = 0; c < part.components; ++c) {
-        local_residual_[first + c] += element.residual()[part.offset + c * part.nodes + a];
-        local_magnitude_[first + c] += element.magnitude()[part.offset + c * part.nodes + a];
+        local_residual_[first + c] += element.residual()[part.offset + c * part.stride + a];
+        local_magnitude_[first + c] += element.magnitude()[part.offset + c * part.stride + a];
       }
     }
 }
@@ -142,27 +142,43 @@ void Assembler::scatter_matrix(const ElementEvaluator& element) {
   for (const auto& rows : element.parts())
     for (int a = 0; a < rows.nodes; ++a, ++row_node) {
       if (*row_node < 0) continue;
-      const char* row_prescribed = &prescribed_[graph_.node(*row_node).first];
       const int* column_node = element_nodes_.data();
       for (const auto& columns : element.parts())
         for (int b = 0; b < columns.nodes; ++b, ++column_node) {
           if (*column_node < 0) continue;
-          const NodeGraph::Place at = graph_.place(*row_node, *column_node);
           const double* from = &element.matrix()[static_cast<std::size_t>(rows.offset + a) * size + columns.offset + b];
-          double* to = &matrix_.value[at.first];
-          const bool plain = !node_has_prescribed_[*row_node] && !node_has_prescribed_[*column_node];
-          const char* column_prescribed = &prescribed_[graph_.node(*column_node).first];
-          for (int i = 0; i < rows.components; ++i)
-            for (int j = 0; j < columns.components; ++j) {
-              const double entry = from[(static_cast<std::ptrdiff_t>(i) * rows.nodes) * size + j * columns.nodes];
-              if (plain || (!row_prescribed[i] && !column_prescribed[j]))
-                to[i * at.row_length + j] += entry;
-              else if (!row_prescribed[i])
-                local_lift_[graph_.node(*row_node).first + i] +=
-                    entry * pending_[graph_.node(*column_node).first + j];
-            }
+          const NodeBlock block{from, static_cast<std::ptrdiff_t>(rows.stride) * size, columns.stride, rows.components,
+                                columns.components};
+          if (node_has_prescribed_[*row_node] || node_has_prescribed_[*column_node])
+            add_held_block(*row_node, *column_node, block);
+          else
+            add_free_block(*row_node, *column_node, block);
         }
     }
+}
+
+void Assembler::add_free_block(int row_node, int column_node, const NodeBlock& block) {
+  const NodeGraph::Place at = graph_.place(row_node, column_node);
+  double* to = matrix_.value.data + at.first;
+  for (int i = 0; i < block.rows; ++i, to += at.row_length)
+    for (int j = 0; j < block.columns; ++j) to[j] += block.from[i * block.row_stride + j * block.column_stride];
+}
+
+/// Rows of prescribed unknowns are left out; their columns act on the way they have still to go.
+void Assembler::add_held_block(int row_node, int column_node, const NodeBlock& block) {
+  const NodeGraph::Place at = graph_.place(row_node, column_node);
+  const int first_row = graph_.node(row_node).first, first_column = graph_.node(column_node).first;
+  double* to = matrix_.value.data + at.first;
+  for (int i = 0; i < block.rows; ++i, to += at.row_length) {
+    if (prescribed_[first_row + i]) continue;
+    for (int j = 0; j < block.columns; ++j) {
+      const double entry = block.from[i * block.row_stride + j * block.column_stride];
+      if (prescribed_[first_column + j])
+        local_lift_[first_row + i] += entry * pending_[first_column + j];
+      else
+        to[j] += entry;
+    }
+  }
 }
 
 /// Prescribed unknowns keep their value: identity rows, and their residual is the force that holds them.

@@ -70,6 +70,15 @@ class Assembler {
   void assemble_group(Group& group, const TimePoint& at, bool with_tangent);
   void scatter_vector(const ElementEvaluator& element);
   void scatter_matrix(const ElementEvaluator& element);
+  /// The part of an element matrix that belongs to a pair of nodes.
+  struct NodeBlock {
+    const double* from;
+    std::ptrdiff_t row_stride;
+    int column_stride;
+    int rows, columns;
+  };
+  void add_free_block(int row_node, int column_node, const NodeBlock& block);
+  void add_held_block(int row_node, int column_node, const NodeBlock& block);
   void hold_prescribed(bool with_tangent);
 
   std::vector<Field*> fields_;

@@ -1,17 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 namespace seam {
 
-/// c[i][j] += sum_k a[k][i] b[k][j]; the inner kernel of every element matrix. Compiled for several instruction
-/// sets, the best one is chosen at run time.
-/// @param a depth x rows, contiguous
-/// @param b depth x columns, rows `b_stride` apart
-/// @param c rows x columns, rows `c_stride` apart
-void add_product(int rows, int columns, int depth, const double* a, const double* b, int b_stride, double* c,
-                 int c_stride);
+/// Shape functions of one slot of a term at all points of an element.
+struct SlotOperator {
+  const double* shape = nullptr;  ///< [point][row][stride]
+  int rows = 1;                   ///< 1, or the dimension for a gradient
+  int stride = 0;                 ///< nodes, padded with zeros to a multiple of 4
+  int components = 1;
+  int offset = 0;                 ///< first row or column in the element matrix; components are `stride` apart
+};
 
-/// y[j] += factor * x[j]
-void add_scaled(int n, double factor, const double* x, double* y);
+/// The work K += sum over points of  B_test^T (weight D) B_trial.
+struct Contraction {
+  int points = 0;
+  const double* weight = nullptr;     ///< [point]
+  const double* tangent = nullptr;    ///< D: [point][outputs][columns]
+  std::vector<SlotOperator> outputs;  ///< of the test functions
+  std::vector<SlotOperator> columns;  ///< of the trial functions
+  int first_column = 0;               ///< of the element matrix that this term touches
+  int width = 0;                      ///< columns touched, a multiple of 4
+  double* matrix = nullptr;           ///< [row][column]
+  int matrix_stride = 0;
+};
+
+/// Carries the work out; the innermost loop of all assembly. Compiled for several instruction sets, the best one
+/// is chosen at run time.
+void contract(const Contraction& work, std::vector<double>& scratch);
 
 }  // namespace seam

@@ -56,6 +56,13 @@ const int* CellDomain::nodes(int index, int, int block) const {
   return field_->blocks()[block].space->cell_nodes(cells_[index]);
 }
 
+void CellDomain::restrict_to(const Field& field, const std::vector<char>& active) {
+  if (&field != field_) return;
+  cells_.clear();
+  for (int c = 0; c < field.mesh().owned_cells(); ++c)
+    if (active[c]) cells_.push_back(c);
+}
+
 std::string CellDomain::description() const { return fmt::format("cells of field '{}'", field_->name()); }
 
 FaceTables::FaceTables(const Field& field, int degree, bool with_hessian) {
@@ -79,7 +86,15 @@ void FaceTables::attach(ElementSide& side) const {
 BoundaryDomain::BoundaryDomain(Field& field, const std::string& boundary, int degree)
     : field_(&field), boundary_(boundary), tables_(field, degree, false) {
   for (const CellFace& face : field.mesh().boundary(boundary))
-    if (face.cell < field.mesh().owned_cells()) faces_.push_back(face);
+    if (face.cell < field.mesh().owned_cells()) all_faces_.push_back(face);
+  faces_ = all_faces_;
+}
+
+void BoundaryDomain::restrict_to(const Field& field, const std::vector<char>& active) {
+  if (&field != field_) return;
+  faces_.clear();
+  for (const CellFace& face : all_faces_)
+    if (active[face.cell]) faces_.push_back(face);
 }
 
 void BoundaryDomain::fill(int index, Element& element) const {
@@ -141,6 +156,13 @@ void InteriorFaceDomain::fill(int index, Element& element) const {
 
 const int* InteriorFaceDomain::nodes(int index, int side, int block) const {
   return field_->blocks()[block].space->cell_nodes(faces_[index].side[side].cell);
+}
+
+void InteriorFaceDomain::restrict_to(const Field& field, const std::vector<char>& active) {
+  if (&field != field_) return;
+  faces_.clear();
+  for (const Mesh::InteriorFace& face : field.mesh().interior_faces())
+    if (active[face.side[0].cell] && active[face.side[1].cell]) faces_.push_back(face);
 }
 
 std::string InteriorFaceDomain::description() const {

@@ -12,18 +12,16 @@ namespace seam {
 class CellDomain final : public IntegrationDomain {
  public:
   CellDomain(Field& field, int degree);
-  /// Restricts the domain; `cells` are owned local cells.
-  void set_cells(std::vector<int> cells) { cells_ = std::move(cells); }
-
   [[nodiscard]] int size() const override { return static_cast<int>(cells_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
+  void restrict_to(const Field& field, const std::vector<char>& active) override;
 
  private:
   Field* field_;
-  std::vector<int> cells_;
+  std::vector<int> cells_;   ///< owned and active
   const Quadrature* rule_;
   ShapeTable tables_[2];
 };
@@ -50,11 +48,12 @@ class BoundaryDomain final : public IntegrationDomain {
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
+  void restrict_to(const Field& field, const std::vector<char>& active) override;
 
  private:
   Field* field_;
   std::string boundary_;
-  std::vector<CellFace> faces_;
+  std::vector<CellFace> all_faces_, faces_;
   FaceTables tables_;
 };
 
@@ -62,14 +61,12 @@ class BoundaryDomain final : public IntegrationDomain {
 class InteriorFaceDomain final : public IntegrationDomain {
  public:
   InteriorFaceDomain(Field& field, int degree);
-  /// Restricts the domain to a subset of the field's Mesh::interior_faces.
-  void set_faces(std::vector<Mesh::InteriorFace> faces) { faces_ = std::move(faces); }
-
   [[nodiscard]] int size() const override { return static_cast<int>(faces_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_, field_}; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
+  void restrict_to(const Field& field, const std::vector<char>& active) override;
 
  private:
   Field* field_;

@@ -23,7 +23,7 @@ void map_points(ElementSide& side, const ShapeTable& table) {
       for (int i = 0; i < dim; ++i) {
         const double x = side.geometry[a * dim + i];
         position[i] += value[a] * x;
-        for (int j = 0; j < dim; ++j) jacobian(i, j) += gradient[j * table.nodes + a] * x;
+        for (int j = 0; j < dim; ++j) jacobian(i, j) += gradient[j * table.stride + a] * x;
       }
     const auto cof = cofactor(jacobian);
     const double det = determinant(jacobian, cof);

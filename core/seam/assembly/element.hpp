@@ -57,6 +57,8 @@ class IntegrationDomain {
   virtual void fill(int index, Element& element) const = 0;
   /// Local nodes of one side's cell in one block, without the cost of fill().
   [[nodiscard]] virtual const int* nodes(int index, int side, int block) const = 0;
+  /// Leaves only elements all of whose cells are active. @param active per local cell of the field's mesh
+  virtual void restrict_to(const Field& field, const std::vector<char>& active) { (void)field, (void)active; }
   /// For messages: "cells of field 'water'".
   [[nodiscard]] virtual std::string description() const = 0;
 };

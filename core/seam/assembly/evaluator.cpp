@@ -7,7 +7,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "seam/assembly/contraction.hpp"
 
 namespace seam {
 
@@ -28,6 +27,7 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, std::vector<
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
     Compiled compiled{bound.term, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
+    if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
     if (bound.operands.size() < s.components.size())
       throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound", domain.description(),
                                          s.components.size(), bound.operands.size()));
@@ -64,11 +64,12 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
                                      [&](const Part& p) { return p.side == operand.side && p.block == b; });
       if (known) continue;
       Block& block = field.blocks()[b];
-      parts_.push_back({operand.side, b, &block, block.space->nodes_per_cell(), block.size, 0});
+      const int nodes = block.space->nodes_per_cell();
+      parts_.push_back({operand.side, b, &block, nodes, (nodes + 3) / 4 * 4, block.size, 0});
     }
   for (Part& part : parts_) {
     part.offset = size_;
-    size_ += part.nodes * part.components;
+    size_ += part.stride * part.components;
   }
 }
 
@@ -105,7 +106,7 @@ void ElementEvaluator::compute_operators() {
     Operators& operators = operators_[p];
     operators.value = table.value.data();
     if (operators.needs_gradient) {
-      const int n = table.nodes;
+      const int n = table.stride;
       operators.gradient.assign(static_cast<std::size_t>(points) * dim_ * n, 0.0);
       for (int q = 0; q < points; ++q)
         for (int i = 0; i < dim_; ++i) {
@@ -125,7 +126,7 @@ void ElementEvaluator::compute_normal_operators(int p) {
   const ElementSide& side = element_.sides[parts_[p].side];
   const ShapeTable& table = *side.table[parts_[p].states->space->order() - 1];
   Operators& operators = operators_[p];
-  const int n = table.nodes;
+  const int n = table.stride;
   operators.normal.assign(static_cast<std::size_t>(element_.points) * n, 0.0);
   operators.second_normal.assign(operators.needs_second_normal ? operators.normal.size() : 0, 0.0);
   for (int q = 0; q < element_.points; ++q) {
@@ -149,7 +150,7 @@ void ElementEvaluator::compute_normal_operators(int p) {
 void ElementEvaluator::gather() {
   for (int level = 0; level < 5; ++level) {
     if (!level_used_[level]) continue;
-    local_[level].resize(size_);
+    local_[level].assign(size_, 0.0);
     for (const Part& part : parts_) {
       const NodalState& now = part.states->now;
       const NodalState& old = part.states->old;
@@ -158,7 +159,7 @@ void ElementEvaluator::gather() {
       double* to = &local_[level][part.offset];
       for (int a = 0; a < part.nodes; ++a)
         for (int c = 0; c < part.components; ++c)
-          to[c * part.nodes + a] = (*from[level])[static_cast<std::size_t>(nodes[a]) * part.components + c];
+          to[c * part.stride + a] = (*from[level])[static_cast<std::size_t>(nodes[a]) * part.components + c];
     }
   }
 }
@@ -169,7 +170,7 @@ void ElementEvaluator::compute_inputs(const Compiled& term) {
   for (const Slot& slot : term.signature->inputs) {
     const BoundOperand& operand = term.operands[slot.operand];
     const Part& part = parts_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.nodes;
+    const int r = rows(slot.shape, dim_), n = part.stride;
     const double* shape = operators_[operand.part].of(slot.shape);
     const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
     for (int q = 0; q < element_.points; ++q)
@@ -216,7 +217,7 @@ void ElementEvaluator::add_residual(const Compiled& term) {
   for (const Slot& slot : term.signature->outputs) {
     const BoundOperand& operand = term.operands[slot.operand];
     const Part& part = parts_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.nodes;
+    const int r = rows(slot.shape, dim_), n = part.stride;
     const double* shape = operators_[operand.part].of(slot.shape);
     for (int c = 0; c < operand.components; ++c) {
       double* target = &residual_[part.offset + (operand.offset + c) * n];
@@ -236,48 +237,31 @@ void ElementEvaluator::add_residual(const Compiled& term) {
   }
 }
 
-/// K += B^T D B: first the columns' operators are applied point by point, then the rows' in one product.
 void ElementEvaluator::add_tangent(const Compiled& term) {
-  const int points = element_.points;
-  int first_column = size_, end_column = 0;
-  for (const Slot& slot : term.signature->columns) {
-    const Part& part = parts_[term.operands[slot.operand].part];
-    first_column = std::min(first_column, part.offset);
-    end_column = std::max(end_column, part.offset + part.nodes * part.components);
-  }
-  const int width = end_column - first_column;
-
-  int out = 0;
-  for (const Slot& row_slot : term.signature->outputs) {
-    const BoundOperand& row_operand = term.operands[row_slot.operand];
-    const Part& row_part = parts_[row_operand.part];
-    const int r = rows(row_slot.shape, dim_);
-    for (int c = 0; c < row_operand.components; ++c) {
-      columns_.assign(static_cast<std::size_t>(points) * r * width, 0.0);
-      for (int q = 0; q < points; ++q)
-        for (int i = 0; i < r; ++i) {
-          const double* d = &point_tangent_[(static_cast<std::size_t>(q) * term.outputs + out + c * r + i) * term.columns];
-          double* target = &columns_[(static_cast<std::size_t>(q) * r + i) * width];
-          int in = 0;
-          for (const Slot& slot : term.signature->columns) {
-            const BoundOperand& operand = term.operands[slot.operand];
-            const Part& part = parts_[operand.part];
-            const int m = rows(slot.shape, dim_);
-            const double* shape =
-                operators_[operand.part].of(slot.shape) + static_cast<std::ptrdiff_t>(q) * m * part.nodes;
-            double* at = target + part.offset - first_column + operand.offset * part.nodes;
-            for (int k = 0; k < operand.components; ++k)
-              for (int l = 0; l < m; ++l, ++in)
-                add_scaled(part.nodes, element_.weight[q] * d[in], shape + l * part.nodes, at + k * part.nodes);
-          }
-        }
-      double* target = &matrix_[static_cast<std::size_t>(row_part.offset + (row_operand.offset + c) * row_part.nodes) *
-                                    size_ + first_column];
-      add_product(row_part.nodes, width, points * r, operators_[row_operand.part].of(row_slot.shape), columns_.data(),
-                  width, target, size_);
+  const auto operators_of = [&](const std::vector<Slot>& slots, std::vector<SlotOperator>& result) {
+    result.clear();
+    for (const Slot& slot : slots) {
+      const BoundOperand& operand = term.operands[slot.operand];
+      const Part& part = parts_[operand.part];
+      result.push_back({operators_[operand.part].of(slot.shape), rows(slot.shape, dim_), part.stride,
+                        operand.components, part.offset + operand.offset * part.stride});
     }
-    out += row_operand.components * r;
+  };
+  operators_of(term.signature->outputs, work_.outputs);
+  operators_of(term.signature->columns, work_.columns);
+  int first = size_, end = 0;
+  for (const SlotOperator& column : work_.columns) {
+    first = std::min(first, column.offset);
+    end = std::max(end, column.offset + column.components * column.stride);
   }
+  work_.points = element_.points;
+  work_.weight = element_.weight.data();
+  work_.tangent = point_tangent_.data();
+  work_.first_column = first;
+  work_.width = end - first;
+  work_.matrix = matrix_.data();
+  work_.matrix_stride = size_;
+  contract(work_, scratch_);
 }
 
 }  // namespace seam

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "seam/assembly/contraction.hpp"
 #include "seam/assembly/element.hpp"
 #include "seam/term/term.hpp"
 
@@ -29,8 +30,8 @@ struct BoundTerm {
 };
 
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
-/// by part (one per side and block in use), then component, then node: component-major, so that the inner loops
-/// run over nodes.
+/// by part (one per side and block in use), then component, then node, padded: component-major, so that the inner
+/// loops run over nodes in full vector registers.
 class ElementEvaluator {
  public:
   ElementEvaluator(const IntegrationDomain& domain, std::vector<BoundTerm> terms);
@@ -41,6 +42,7 @@ class ElementEvaluator {
     int block;
     Block* states;
     int nodes;       ///< per element
+    int stride;      ///< nodes, padded to a multiple of 4: components are so far apart
     int components;
     int offset;      ///< first row
   };
@@ -74,9 +76,9 @@ class ElementEvaluator {
   };
   /// Shape operators of a part at the element's points.
   struct Operators {
-    const double* value = nullptr;  ///< [point][node]
-    std::vector<double> gradient;   ///< [point][direction][node]
-    std::vector<double> normal;     ///< [point][node]
+    const double* value = nullptr;  ///< [point][stride]
+    std::vector<double> gradient;   ///< [point][direction][stride]
+    std::vector<double> normal;     ///< [point][stride]
     std::vector<double> second_normal;
     bool needs_gradient = false, needs_normal = false, needs_second_normal = false;
     [[nodiscard]] const double* of(Shape shape) const;
@@ -101,7 +103,8 @@ class ElementEvaluator {
   /// Nodal values of every level, [level][row].
   std::vector<double> local_[5];
   bool level_used_[5] = {true, false, false, false, false};
-  std::vector<double> inputs_, point_residual_, point_tangent_, columns_;
+  std::vector<double> inputs_, point_residual_, point_tangent_, scratch_;
+  Contraction work_;
   std::vector<double> residual_, magnitude_, matrix_;
 };
 

@@ -21,7 +21,7 @@ class Interface {
   /// Finds the pieces of the interface. Collective.
   /// @param sides the fields, in the order of fields()
   /// @param degree polynomial degree to integrate exactly
-  [[nodiscard]] virtual std::shared_ptr<const IntegrationDomain> build(const std::vector<Field*>& sides,
+  [[nodiscard]] virtual std::shared_ptr<IntegrationDomain> build(const std::vector<Field*>& sides,
                                                                        int degree) const = 0;
 };
 

@@ -143,7 +143,7 @@ Schema MatchingInterface::schema() {
   return s;
 }
 
-std::shared_ptr<const IntegrationDomain> MatchingInterface::build(const std::vector<Field*>& sides, int degree) const {
+std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Field*>& sides, int degree) const {
   const MeshData& first = sides[0]->mesh().whole();
   const MeshData& second = sides[1]->mesh().whole();
   const auto partners_of = second.boundaries.find(boundaries_[1]);

@@ -12,7 +12,7 @@ class MatchingInterface final : public Interface {
   explicit MatchingInterface(const Parameters& parameters);
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return fields_; }
-  [[nodiscard]] std::shared_ptr<const IntegrationDomain> build(const std::vector<Field*>& sides,
+  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(const std::vector<Field*>& sides,
                                                                int degree) const override;
 
  private:

@@ -25,14 +25,14 @@ struct Sink {
   ShapeTable& table;
   int q;
   bool with_hessian;
-  void put(int a, double value) const { table.value[static_cast<std::size_t>(q) * table.nodes + a] = value; }
+  void put(int a, double value) const { table.value[static_cast<std::size_t>(q) * table.stride + a] = value; }
   void put(int a, int i, double value) const {
-    table.gradient[(static_cast<std::size_t>(q) * table.dimension + i) * table.nodes + a] = value;
+    table.gradient[(static_cast<std::size_t>(q) * table.dimension + i) * table.stride + a] = value;
   }
   void put(int a, int i, int j, double value) const {
     if (!with_hessian) return;
     const std::size_t row = (static_cast<std::size_t>(q) * table.dimension + i) * table.dimension + j;
-    table.hessian[row * table.nodes + a] = value;
+    table.hessian[row * table.stride + a] = value;
   }
 };
 
@@ -101,9 +101,10 @@ void tabulate(CellType type, int order, const double* points, int count, bool wi
   table.dimension = dim;
   table.nodes = cell.nodes(order);
   table.points = count;
-  table.value.resize(static_cast<std::size_t>(count) * table.nodes);
-  table.gradient.resize(table.value.size() * dim);
-  table.hessian.resize(with_hessian ? table.gradient.size() * dim : 0);
+  table.stride = (table.nodes + 3) / 4 * 4;
+  table.value.assign(static_cast<std::size_t>(count) * table.stride, 0.0);
+  table.gradient.assign(table.value.size() * dim, 0.0);
+  table.hessian.assign(with_hessian ? table.gradient.size() * dim : 0, 0.0);
   const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
   for (int q = 0; q < count; ++q) {
     const Sink sink{table, q, with_hessian};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "seam/mesh/cell_type.hpp"
@@ -12,17 +13,18 @@ namespace seam {
 struct ShapeTable {
   int dimension = 0;  ///< of the reference cell
   int nodes = 0;
+  int stride = 0;     ///< nodes, padded with zeros to a multiple of 4 for the assembly's vector instructions
   int points = 0;
-  std::vector<double> value;     ///< [point][node]
-  std::vector<double> gradient;  ///< [point][direction][node], with respect to reference coordinates
-  std::vector<double> hessian;   ///< [point][direction][direction][node]; empty unless asked for
+  std::vector<double> value;     ///< [point][stride]
+  std::vector<double> gradient;  ///< [point][direction][stride], with respect to reference coordinates
+  std::vector<double> hessian;   ///< [point][direction][direction][stride]; empty unless asked for
 
-  [[nodiscard]] const double* value_at(int q) const { return &value[static_cast<std::size_t>(q) * nodes]; }
+  [[nodiscard]] const double* value_at(int q) const { return value.data() + static_cast<std::ptrdiff_t>(q) * stride; }
   [[nodiscard]] const double* gradient_at(int q) const {
-    return &gradient[static_cast<std::size_t>(q) * nodes * dimension];
+    return gradient.data() + static_cast<std::ptrdiff_t>(q) * stride * dimension;
   }
   [[nodiscard]] const double* hessian_at(int q) const {
-    return &hessian[static_cast<std::size_t>(q) * nodes * dimension * dimension];
+    return hessian.data() + static_cast<std::ptrdiff_t>(q) * stride * dimension * dimension;
   }
 };
 

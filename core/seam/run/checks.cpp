@@ -44,6 +44,7 @@ CheckResult evaluate(const Parameters& check, const Results& results) {
   if (check.has("is")) {
     const double reference = check.number("is");
     if (!check.has("within")) throw Error(check.where("is"), "a check with `is` needs `within`");
+    result.is = reference;
     const double allowed = tolerance(check, reference);
     result.deviation = (result.value - reference) / (reference == 0 ? 1 : std::abs(reference));
     result.passed = result.passed && std::abs(result.value - reference) <= allowed;

@@ -10,18 +10,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "seam/base/checksum.hpp"
+
 namespace seam {
 namespace {
 
 // File: magic, format number, length of a JSON header, header, doubles, checksum of all that.
 constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '1'};
-
-/// 64-bit FNV-1a.
-std::uint64_t checksum(const std::string& bytes) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return hash;
-}
 
 std::string block_name(const FieldEntry& entry, std::size_t b) {
   return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());

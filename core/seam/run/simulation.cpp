@@ -82,7 +82,7 @@ void Simulation::build_fields(const Registry& registry) {
 void Simulation::build_couplings(const Registry& registry) {
   struct Built {
     std::unique_ptr<Interface> interface;
-    std::shared_ptr<const IntegrationDomain> domain;
+    std::shared_ptr<IntegrationDomain> domain;
     std::vector<Field*> sides;
   };
   std::map<std::string, Built> interfaces;
@@ -132,7 +132,7 @@ void Simulation::start(const RunOptions& options) {
 }
 
 const Results& Simulation::run(const RunOptions& options) {
-  const Stopwatch watch;
+  run_watch_ = Stopwatch();
   start(options);
   double step = state_.step;
   long taken = 0;
@@ -145,23 +145,33 @@ const Results& Simulation::run(const RunOptions& options) {
     if (try_step(tried)) {
       step = next_step(tried);
       state_.step = step;
-      save_restart();
-      show_progress(options, watch.seconds());
+      if (restart_due()) save_restart();
+      show_progress(options, run_watch_.seconds());
       continue;
     }
     ++rejected_steps_;
     step = tried / 2;
-    if (step < time_.minimum) {
-      save_restart();
+    if (step < time_.minimum)
       throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", state_.time, tried,
                               reports_.back().reason));
-    }
   }
   if (state_.time >= time_.end - 1e-10 * span) finish_errors();
+  finish_timings();
+  return state_.results;
+}
+
+void Simulation::finish_timings() {
   timings_.pattern = problem_.assembler().pattern_seconds();
   timings_.assembly = problem_.assembler().assembly_seconds();
-  timings_.total = watch.seconds() + timings_.setup;
-  return state_.results;
+  timings_.total = run_watch_.seconds() + timings_.setup;
+}
+
+void Simulation::record_failure(const std::string& reason) {
+  failure_ = reason;
+  finish_timings();
+  if (state_.results.time.empty()) return;  // it failed before there was a state
+  if (fields_ && last_fields_ != state_.step_number) write_fields(last_point_);
+  save_restart();
 }
 
 /// One step; leaves everything as it was when it fails.
@@ -170,7 +180,12 @@ bool Simulation::try_step(double step) {
   const double until = std::abs(state_.time + step - time_.end) < 1e-10 * step ? time_.end : state_.time + step;
   const TimePoint at = time_point(until, time_.is_static ? 0 : step, time_.theta);
   problem_.begin_step(at);
-  reports_.push_back(newton_->solve(at));
+  try {
+    reports_.push_back(newton_->solve(at));
+  } catch (...) {
+    problem_.restore(before);
+    throw;
+  }
   timings_.linear += reports_.back().linear_seconds;
   if (!reports_.back().converged) {
     problem_.restore(before);
@@ -223,18 +238,28 @@ void Simulation::record(const TimePoint& at) {
   record_integrals(problem_, at, state_.results);
   const long every = scene_.root.object("output").integer("every");
   const bool last = state_.time >= time_.end;
-  if (fields_ && (state_.step_number % every == 0 || last)) fields_->write(state_.step_number, at);
+  last_point_ = at;
+  if (fields_ && (state_.step_number % every == 0 || last)) write_fields(at);
   if (communicator_.rank() == 0) write_series((folder_ / "series.csv").string(), state_.results);
   timings_.output += watch.seconds();
 }
 
+void Simulation::write_fields(const TimePoint& at) {
+  fields_->write(state_.step_number, at);
+  last_fields_ = state_.step_number;
+}
+
+bool Simulation::restart_due() const {
+  const long every = scene_.root.object("output").object("restart").integer("every");
+  return every != 0 && state_.step_number % every == 0;
+}
+
 void Simulation::save_restart() {
-  const Parameters& p = scene_.root.object("output").object("restart");
-  if (p.integer("every") == 0 || state_.step_number % p.integer("every") != 0) return;
   const Stopwatch watch;
   const std::filesystem::path folder = folder_ / "restart";
   write_restart(folder / fmt::format("{:08}.restart", state_.step_number), problem_, state_, scene_.text);
-  if (communicator_.rank() == 0) prune_restarts(folder, p.integer("keep"));
+  if (communicator_.rank() == 0) 
+    prune_restarts(folder, scene_.root.object("output").object("restart").integer("keep"));
   timings_.output += watch.seconds();
 }
 

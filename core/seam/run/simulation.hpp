@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "seam/base/stopwatch.hpp"
 #include "seam/linear/linear_solver.hpp"
 #include "seam/run/checks.hpp"
 #include "seam/run/field_output.hpp"
@@ -37,12 +38,18 @@ class Simulation {
   /// @throws Error with places in the scene
   Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator);
 
-  /// Runs to the end. Collective. @throws Error when a step fails for good: the last good state is on disk
+  /// Runs to the end. Collective. @throws Error when a step fails for good; then the state is that before the step
   const Results& run(const RunOptions& options);
+
+  /// After run() threw on all ranks: puts the last good state on disk, its fields and a restart point, whatever the
+  /// scene says about intervals, and keeps the reason for summary(). Collective.
+  void record_failure(const std::string& reason);
 
   [[nodiscard]] Problem& problem() { return problem_; }
   [[nodiscard]] const Timings& timings() const { return timings_; }
   [[nodiscard]] long step_number() const { return state_.step_number; }
+  /// Of the last good state.
+  [[nodiscard]] double time() const { return state_.time; }
   /// Newton histories of all steps.
   [[nodiscard]] const std::vector<NewtonReport>& newton_reports() const { return reports_; }
   [[nodiscard]] long long unknowns();
@@ -64,7 +71,10 @@ class Simulation {
   double next_step(double tried) const;
   [[nodiscard]] double time_error(const TimePoint& at) const;
   void record(const TimePoint& at);
+  void write_fields(const TimePoint& at);
+  [[nodiscard]] bool restart_due() const;
   void save_restart();
+  void finish_timings();
   void finish_errors();
   void show_progress(const RunOptions& options, double seconds) const;
 
@@ -79,7 +89,11 @@ class Simulation {
   std::unique_ptr<FieldOutput> fields_;
   std::filesystem::path folder_;
   std::vector<NewtonReport> reports_;
+  Stopwatch run_watch_;
   Timings timings_;
+  TimePoint last_point_;            ///< of the last good state
+  long last_fields_ = -1;           ///< step number of the fields written last
+  std::string failure_;             ///< why the run ended early, "" if it did not
   double last_time_error_ = 0;
   long rejected_steps_ = 0;
 };

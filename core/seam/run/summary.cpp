@@ -4,9 +4,9 @@
 
 #include <Trilinos_version.h>
 #include <fmt/format.h>
-#include <functional>
 #include <nlohmann/json.hpp>
 
+#include "seam/base/checksum.hpp"
 #include "seam/plugin/fingerprint.hpp"
 #include "seam/run/simulation.hpp"
 
@@ -24,6 +24,13 @@ nlohmann::json machine() {
   utsname name{};
   uname(&name);
   return {{"system", name.sysname}, {"release", name.release}, {"architecture", name.machine}};
+}
+
+/// Changes with the scene's text and with every value that replaces one of it.
+std::string scene_hash(const Scene& scene) {
+  std::string all = scene.text;
+  for (const auto& [path, value] : scene.overrides) all += fmt::format("\n--set {}={}", path, value);
+  return fmt::format("{:016x}", checksum(all));
 }
 
 nlohmann::json histories(const std::vector<NewtonReport>& reports) {
@@ -45,7 +52,13 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   nlohmann::json s;
   s["title"] = scene_.root.text("title");
   s["scene"] = scene_.path.filename().string();
-  s["scene_hash"] = fmt::format("{:016x}", std::hash<std::string>{}(scene_.text));
+  s["scene_hash"] = scene_hash(scene_);
+  s["overrides"] = nlohmann::json::array();
+  for (const auto& [path, value] : scene_.overrides) s["overrides"].push_back(path + "=" + value);
+  const bool finished = state_.time >= time_.end;
+  s["status"] = !failure_.empty() ? "failed" : finished ? "finished" : "stopped";
+  if (!failure_.empty()) s["reason"] = failure_;
+  s["time"] = state_.time;
   s["parameters"] = scene_.parameters;
   s["versions"] = {{"fingerprint", SEAM_FINGERPRINT}, {"trilinos", TRILINOS_VERSION_STRING}};
   s["machine"] = machine();
@@ -57,11 +70,14 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
                   {"linear", timings_.linear}, {"output", timings_.output}, {"total", timings_.total}};
   s["peak_memory_bytes"] = communicator_.sum(peak_memory());
   s["newton"] = histories(reports_);
+  s["results"] = nlohmann::json::object();
   for (const std::string& name : state_.results.names()) s["results"][name] = state_.results.value(name, time_.end);
   s["checks"] = nlohmann::json::array();
-  for (const CheckResult& c : checks)
+  for (const CheckResult& c : checks) {
     s["checks"].push_back({{"that", c.that}, {"value", c.value}, {"expected", c.expected}, {"deviation", c.deviation},
                            {"passed", c.passed}, {"source", c.source}});
+    if (c.is) s["checks"].back()["is"] = *c.is;
+  }
   return s;
 }
 

@@ -102,6 +102,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
   Scene scene;
   scene.path = path;
   scene.text = text;
+  scene.overrides = overrides;
   YamlNode root = parse_yaml(text, path.string());
   if (root.kind == Kind::null) {
     throw Error({path.string(), 0, 0}, "the scene is empty; `seam explain scene` lists what it needs");

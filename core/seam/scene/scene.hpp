@@ -16,19 +16,20 @@
 
 namespace seam {
 
+/// Values that replace those of the file, in this order: key path ("parameters.h", "time.step.initial",
+/// "fields.water.boundary.0.on") and the YAML text of the value ("1/32").
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
 /// A validated scene: everything its file says, defaults filled in, references checked.
 struct Scene {
   Parameters root;                           ///< values of scene_schema()
   std::map<std::string, double> parameters;  ///< the scene's named constants, as overridden
   std::filesystem::path path;                ///< of the file; files it names are relative to its folder
   std::string text;                          ///< the file's content
+  Overrides overrides;                       ///< applied to it
   std::vector<std::string> plugins;          ///< names of those it loads
   Diagnostics warnings;
 };
-
-/// Values that replace those of the file, in this order: key path ("parameters.h", "time.step.initial",
-/// "fields.water.boundary.0.on") and the YAML text of the value ("1/32").
-using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 /// The keys of a scene.
 Schema scene_schema();

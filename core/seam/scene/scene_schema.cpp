@@ -123,13 +123,18 @@ Schema check_schema() {
 }
 
 Schema study_schema() {
-  Schema values("Values of one parameter.");
-  values.vector("values", "numbers or expressions").entries(-1);
+  Schema values("Values of one key.");
+  values.names("values", "numbers, expressions or words, as they would stand in the scene");
 
-  Schema schema("Runs of this scene over ranges of parameters, compared with each other.");
-  schema.value_map("vary", "key paths of the scene (parameters.h) with the values each takes", values);
-  schema.names("measure", "numbers of each run to report: probes, error norms");
-  schema.text("against", "parameter on the horizontal axis; default the first one").optional();
+  Schema schema("Runs of this scene over ranges of values, compared with each other by `seam study`.");
+  schema.value_map("vary", "key paths (a parameter's name alone will do) with the values each takes", values);
+  schema.names("together", "keys of `vary` that change together, all with as many values; the others form all combinations")
+      .otherwise("[]");
+  schema.text("leave_out", "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
+      .optional();
+  schema.names("measure", "numbers of each run: probes, error norms, unknowns, seconds.total, peak_memory_bytes, or "
+                          "error(NAME): relative deviation of NAME from what the check of that name expects");
+  schema.text("against", "key of `vary` on the horizontal axis; default the last one").optional();
   return schema;
 }
 

@@ -10,8 +10,7 @@ namespace seam {
 /// Collects what a physics declares and turns it into domains of the problem.
 class FieldBuilder final : public FieldSetup {
  public:
-  FieldBuilder(FieldEntry& entry, std::vector<std::pair<std::shared_ptr<const IntegrationDomain>,
-                                                        std::vector<BoundTerm>>>& domains)
+  FieldBuilder(FieldEntry& entry, std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains)
       : entry_(entry), domains_(domains) {}
   /// Hands the collected terms over.
   void finish();
@@ -35,7 +34,7 @@ class FieldBuilder final : public FieldSetup {
  private:
   [[nodiscard]] int highest_order() const;
   FieldEntry& entry_;
-  std::vector<std::pair<std::shared_ptr<const IntegrationDomain>, std::vector<BoundTerm>>>& domains_;
+  std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains_;
   std::map<int, std::vector<BoundTerm>> cell_terms_;  ///< by degree of the quadrature
   std::map<std::pair<std::string, int>, std::vector<BoundTerm>> boundary_terms_;
   std::map<int, std::vector<BoundTerm>> face_terms_;

@@ -37,8 +37,13 @@ Field& Problem::add_field(const std::string& name, std::shared_ptr<const Mesh> m
   return *entry.field;
 }
 
-void Problem::add_coupling(std::shared_ptr<const IntegrationDomain> interface, std::vector<BoundTerm> terms) {
+void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms) {
   domains_.emplace_back(std::move(interface), std::move(terms));
+}
+
+void Problem::restrict_field(FieldEntry& entry, const std::vector<char>& active) {
+  entry.field->activate_cells(active);
+  for (auto& [domain, terms] : domains_) domain->restrict_to(*entry.field, active);
 }
 
 void Problem::finish() {

@@ -58,11 +58,16 @@ class Problem {
   /// @throws Error when two conditions claim the same unknown on the same boundary
   Field& add_field(const std::string& name, std::shared_ptr<const Mesh> mesh, std::unique_ptr<Physics> physics);
   /// Adds terms on an interface between fields.
-  void add_coupling(std::shared_ptr<const IntegrationDomain> interface, std::vector<BoundTerm> terms);
+  void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
   /// Called before each Newton iteration; returns true when it changed active unknowns, domains or prescribed
   /// values, after which the system is rebuilt. The return value must be the same on all ranks.
   using SpaceUpdate = std::function<bool()>;
   void add_space_update(SpaceUpdate update) { space_updates_.push_back(std::move(update)); }
+
+  /// Restricts a field to some of its cells: terms on others are left out, and nodes that only those have carry no
+  /// unknowns. Collective; rebuild the system afterwards (a SpaceUpdate returns true).
+  /// @param active per local cell of the field's mesh, ghosts included
+  void restrict_field(FieldEntry& entry, const std::vector<char>& active);
 
   /// Call once everything is added. Collective.
   void finish();
@@ -72,6 +77,9 @@ class Problem {
   [[nodiscard]] std::vector<FieldEntry>& fields() { return fields_; }
   [[nodiscard]] const std::vector<FieldEntry>& fields() const { return fields_; }
   [[nodiscard]] FieldEntry& field(const std::string& name);
+  /// What is integrated where.
+  using DomainTerms = std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>;
+  [[nodiscard]] const std::vector<DomainTerms>& domains() const { return domains_; }
   /// True when some unknown has a rate, so that time matters.
   [[nodiscard]] bool has_rates() const;
 
@@ -98,7 +106,7 @@ class Problem {
   void set_prescribed(double time);
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
-  std::vector<std::pair<std::shared_ptr<const IntegrationDomain>, std::vector<BoundTerm>>> domains_;
+  std::vector<DomainTerms> domains_;
   std::vector<SpaceUpdate> space_updates_;
   std::unique_ptr<Assembler> assembler_;
 };

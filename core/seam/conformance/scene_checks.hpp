@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "seam/conformance/check.hpp"
+#include "seam/run/results.hpp"
+#include "seam/scene/scene.hpp"
+
+namespace seam {
+
+/// What replaces a scene's own settings in the conformance kit: a direct solver and a tight tolerance, so
+/// that runs can be compared, a restart point at every step, and no field output.
+Overrides conformance_overrides();
+
+/// Runs a scene and checks what must hold in any scene: its own checks, the tangent, the rewind of a failed
+/// step (to the bit), a restart in the middle (to the bit). One rank only.
+/// @param scene loaded with conformance_overrides()
+/// @param folder for results; created
+std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& registry,
+                                          const std::filesystem::path& folder);
+
+/// Compares the series of runs on several numbers of ranks with those of the first, to 1e-8 of each series'
+/// size.
+/// @param files series.csv of each run
+/// @param ranks of each run
+ConformanceCheck check_ranks(const std::vector<std::filesystem::path>& files, const std::vector<int>& ranks);
+
+}  // namespace seam

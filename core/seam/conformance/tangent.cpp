@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/conformance/tangent.hpp"
+
+#include <cxxabi.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <random>
+#include <typeinfo>
+
+#include "seam/conformance/finite_difference.hpp"
+#include "seam/linear/linear_solver.hpp"
+
+namespace seam {
+namespace {
+
+/// The rows of one unknown.
+struct UnknownRows {
+  std::string name;
+  std::vector<int> rows;
+};
+
+std::vector<UnknownRows> rows_of_unknowns(const Problem& problem, const Assembler& assembler) {
+  std::vector<UnknownRows> result;
+  for (const FieldEntry& entry : problem.fields())
+    for (const Unknown& unknown : entry.field->unknowns()) {
+      UnknownRows& rows = result.emplace_back(UnknownRows{entry.name + "." + unknown.name, {}});
+      const Field::Place place = entry.field->place(unknown.name);
+      for (int node = 0; node < entry.field->blocks()[place.block].space->owned_nodes(); ++node)
+        for (int c = 0; c < place.components; ++c)
+          if (const int row = assembler.row(*entry.field, place.block, node, place.offset + c); row >= 0)
+            rows.rows.push_back(row);
+    }
+  return result;
+}
+
+double norm_on(const std::vector<int>& rows, const std::vector<double>& x) {
+  double sum = 0;
+  for (const int r : rows) sum += x[r] * x[r];
+  return std::sqrt(sum);
+}
+
+/// Distance between neighbouring nodes, roughly; 1 for a single node.
+double cell_size(const Space& space) {
+  const int dim = space.mesh().dimension();
+  double extent = 0;
+  for (int d = 0; d < dim; ++d) {
+    double low = INFINITY, high = -INFINITY;
+    for (int node = 0; node < space.nodes(); ++node) {
+      low = std::min(low, space.position(node)[d]);
+      high = std::max(high, space.position(node)[d]);
+    }
+    extent = std::max(extent, high - low);
+  }
+  return extent > 0 ? extent / std::pow(space.nodes(), 1.0 / dim) : 1.0;
+}
+
+double scale_of(const Field& field, const Unknown& unknown) {
+  const Field::Place place = field.place(unknown.name);
+  const Block& block = field.blocks()[place.block];
+  if (unknown.unit == "m") return cell_size(*block.space);
+  if (unknown.unit == "rad") return 1.0;
+  double most = 0;
+  for (std::size_t node = 0; node < static_cast<std::size_t>(block.space->nodes()); ++node)
+    for (int c = 0; c < place.components; ++c)
+      most = std::max(most, std::abs(block.now.value[node * block.size + place.offset + c]));
+  // Where the scene leaves an unknown at zero (or at rounding), its size is anybody's guess.
+  return most > 1e-12 ? most : 1.0;
+}
+
+/// The name of the kernel, as its author wrote it.
+std::string term_name(const Term& term) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> text(
+      abi::__cxa_demangle(typeid(term).name(), nullptr, nullptr, &status), &std::free);
+  std::string name = status == 0 ? text.get() : typeid(term).name();
+  const std::string wrapper = "seam::KernelTerm<";
+  if (name.starts_with(wrapper)) name = name.substr(wrapper.size(), name.size() - wrapper.size() - 1);
+  return name;
+}
+
+void free_prescribed(Problem& problem) {
+  for (FieldEntry& entry : problem.fields())
+    for (Block& block : entry.field->blocks()) std::fill(block.prescribed.begin(), block.prescribed.end(), 0);
+  problem.assembler().rebuild();
+}
+
+/// Moves every unknown by up to 3 % of its scale, so that no derivative is zero by symmetry.
+void shake(Problem& problem, const TimePoint& at) {
+  std::mt19937 generator(20232);
+  std::uniform_real_distribution<double> part(-0.03, 0.03);
+  const std::vector<double> scales = unknown_scales(problem);
+  std::vector<double> move(problem.assembler().matrix().rows, 0.0);
+  const auto unknowns = rows_of_unknowns(problem, problem.assembler());
+  for (std::size_t u = 0; u < unknowns.size(); ++u)
+    for (const int r : unknowns[u].rows) move[r] = scales[u] * part(generator);
+  problem.assembler().add_increment(move, 1.0);
+  problem.update_rates(at);
+}
+
+ConformanceCheck tangent_check(const std::string& name, const TangentError& error) {
+  const bool passed = error.relative <= tangent_tolerance;
+  return conformance_check("tangent: " + name, passed,
+                           fmt::format("{:.1e} relative, at most {:.0e}{}", error.relative, tangent_tolerance,
+                                       passed ? "" : "; worst in the " + error.block));
+}
+
+}  // namespace
+
+std::vector<double> unknown_scales(const Problem& problem) {
+  std::vector<double> scales;
+  for (const FieldEntry& entry : problem.fields())
+    for (const Unknown& unknown : entry.field->unknowns()) scales.push_back(scale_of(*entry.field, unknown));
+  return scales;
+}
+
+TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at) {
+  constexpr int directions = 3;
+  const Problem::Snapshot here = problem.snapshot();
+  assembler.assemble(at, true);
+  const std::vector<double> magnitude = assembler.magnitude();
+  const auto unknowns = rows_of_unknowns(problem, assembler);
+  const std::vector<double> scales = unknown_scales(problem);
+  std::mt19937 generator(20233);
+  std::uniform_real_distribution<double> part(-1, 1);
+  TangentError worst;
+  for (std::size_t u = 0; u < unknowns.size(); ++u)
+    for (int k = 0; k < directions; ++k) {
+      std::vector<double> direction(assembler.matrix().rows, 0.0), exact(direction.size());
+      for (const int r : unknowns[u].rows) direction[r] = scales[u] * part(generator);
+      multiply(assembler.matrix(), direction, exact);
+      std::vector<double> error = central_difference(
+          [&](double step) {
+            problem.restore(here);
+            assembler.add_increment(direction, step);
+            problem.update_rates(at);
+            assembler.assemble(at, false);
+            return assembler.residual();
+          },
+          1e-3);
+      for (std::size_t i = 0; i < error.size(); ++i) error[i] -= exact[i];
+      for (const UnknownRows& equations : unknowns) {
+        const double size = norm_on(equations.rows, error);
+        // Blocks without effect on their equations are measured against what the equations hold anyway.
+        const double scale =
+            std::max(norm_on(equations.rows, exact), 1e-6 * norm_on(equations.rows, magnitude));
+        const double relative = size == 0 ? 0.0 : size / scale;
+        if (std::isnan(relative) || relative > worst.relative)
+          worst = {worse(0, relative),
+                   fmt::format("equations of {} by {}", equations.name, unknowns[u].name)};
+      }
+    }
+  problem.restore(here);
+  return worst;
+}
+
+std::vector<ConformanceCheck> check_tangents(Problem& problem, const TimePoint& at) {
+  free_prescribed(problem);
+  shake(problem, at);
+  std::vector<ConformanceCheck> checks{
+      tangent_check("whole system", tangent_error(problem, problem.assembler(), at))};
+  std::vector<Field*> fields;
+  for (FieldEntry& entry : problem.fields()) fields.push_back(entry.field.get());
+  for (const auto& [domain, terms] : problem.domains())
+    for (const BoundTerm& term : terms) {
+      Assembler alone(fields, problem.communicator());
+      alone.add(domain, {term});
+      alone.rebuild();
+      checks.push_back(tangent_check(fmt::format("{} on {}", term_name(*term.term), domain->description()),
+                                     tangent_error(problem, alone, at)));
+    }
+  return checks;
+}
+
+}  // namespace seam

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <vector>
+
+#include "command.hpp"
+#include "seam/base/communicator.hpp"
+#include "seam/base/stopwatch.hpp"
+
+namespace seam::cli {
+namespace {
+
+/// A communicator for the agreement alone: the ranks that are well may be within a collective of the other one.
+MPI_Comm failures = MPI_COMM_NULL;
+
+/// True when all ranks come here within some seconds. Ranks throw the same error at almost the same time; one that
+/// waits for us in a collective operation never comes.
+bool all_ranks_come() {
+  constexpr double patience = 5;
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(failures, &request);
+  int done = 0;
+  for (const Stopwatch watch; watch.seconds() < patience;) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+/// The different messages of the ranks, in the order of the ranks.
+std::string distinct_messages(const std::string& mine) {
+  const Communicator communicator(failures);
+  std::vector<char> bytes(mine.begin(), mine.end());
+  bytes.push_back('\0');
+  std::vector<std::string> distinct;
+  std::string current;
+  for (const char c : communicator.gather_all(bytes)) {
+    if (c != '\0') {
+      current += c;
+      continue;
+    }
+    if (std::find(distinct.begin(), distinct.end(), current) == distinct.end()) distinct.push_back(current);
+    current.clear();
+  }
+  std::string all;
+  for (const std::string& message : distinct) all += (all.empty() ? "" : "\n") + message;
+  return all;
+}
+
+}  // namespace
+
+std::string agree_on_exception() {
+  const Failure failure = current_failure();
+  int size = 1, rank = 0;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  if (size == 1) return failure.message;
+  if (all_ranks_come()) return distinct_messages(failure.message);
+  fmt::print(stderr, "{}\n(on rank {} of {} only: all are stopped)\n", failure.message, rank, size);
+  std::fflush(nullptr);
+  MPI_Abort(MPI_COMM_WORLD, failure.code);
+  std::abort();  // not reached
+}
+
+int run_on_all_ranks(const std::function<int(bool)>& action) {
+  // One thread a rank: BLAS threads would fight over the cores.
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  MPI_Init(nullptr, nullptr);
+  MPI_Comm_dup(MPI_COMM_WORLD, &failures);
+  const bool is_root = Communicator().rank() == 0;
+  int code = ok;
+  try {
+    code = action(is_root);
+  } catch (...) {
+    code = current_failure().code;
+    const std::string message = agree_on_exception();
+    if (is_root) fmt::print(stderr, "{}\n", message);
+  }
+  MPI_Comm_free(&failures);
+  MPI_Finalize();
+  return code;
+}
+
+}  // namespace seam::cli

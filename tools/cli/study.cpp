@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// seam study: run a scene over ranges of values; compare error with cell size, unknowns, seconds and memory.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/utsname.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "command.hpp"
+#include "program.hpp"
+#include "seam/output/atomic_file.hpp"
+#include "study_report.hpp"
+
+namespace seam::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string scene;
+  std::vector<std::string> set;
+  fs::path folder;
+  std::string record;
+};
+
+/// The first line of a file of the form "key : value" with that key; "" when there is none.
+std::string line_of(const fs::path& file, const std::string& key) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with(key)) continue;
+    const std::size_t value = line.find_first_not_of(" \t", line.find(':') + 1);
+    return value == std::string::npos ? "" : line.substr(value);
+  }
+  return "";
+}
+
+std::string machine() {
+  utsname name{};
+  uname(&name);
+  const std::string model = line_of("/proc/cpuinfo", "model name");
+  return fmt::format("{} {} {}, {}{} cores", name.sysname, name.release, name.machine,
+                     model.empty() ? "" : model + ", ", std::thread::hardware_concurrency());
+}
+
+/// The commit of the folder a file lies in, or "unknown".
+std::string commit(const fs::path& file) {
+  // The folder may belong to another user than the one who runs this.
+  const std::vector<std::string> git{"git", "-c", "safe.directory=*", "-C", fs::absolute(file).parent_path().string()};
+  const auto ask = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), git.begin(), git.end());
+    return program_output(words);
+  };
+  const std::string hash = ask({"rev-parse", "--short=12", "HEAD"});
+  if (hash.empty()) return "unknown";
+  const bool is_changed = !ask({"status", "--porcelain", "--untracked-files=no"}).empty();
+  return hash + (is_changed ? " with changes" : "");
+}
+
+/// What reproduces the study, with the scene relative to the current folder.
+std::string command_line(const Options& options) {
+  const fs::path scene = fs::proximate(options.scene);
+  std::string text = "seam study " + (scene.native().starts_with("..") ? scene.filename() : scene).string();
+  for (const std::string& value : options.set) text += fmt::format(" --set '{}'", value);
+  return text + (options.record.empty() ? "" : " --record " + options.record);
+}
+
+/// The last line of a file that is not blank.
+std::string last_line(const fs::path& file) {
+  std::ifstream in(file);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  return last;
+}
+
+/// What a case's run left: its summary, or nothing when it broke off early.
+nlohmann::json read_summary(const fs::path& folder) {
+  std::ifstream in(folder / "summary.json");
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+/// Runs a case in a process of its own, so that its seconds and its peak memory are its own.
+StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options& options, const fs::path& folder,
+                     nlohmann::json& versions) {
+  StudyRecord record{one, "", {}};
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  std::vector<std::string> call{own_executable().string(), "run", options.scene, "--quiet", "--no-picture", "--folder",
+                                folder.string()};
+  std::vector<std::string> set{"output.fields=false"};
+  set.insert(set.end(), options.set.begin(), options.set.end());
+  const std::vector<std::string> own = overrides_of(plan, one);
+  set.insert(set.end(), own.begin(), own.end());
+  for (const std::string& value : set) call.insert(call.end(), {"--set", value});
+
+  const fs::path log = folder / "log.txt";
+  const int code = run_program(call, log);
+  const nlohmann::json summary = read_summary(folder);
+  // A check that fails makes exit code 1, too: on coarse meshes that is what a study is there to show.
+  const bool is_finished = summary.is_object() && summary.value("status", "") == "finished";
+  if (!is_finished) {
+    record.problem = summary.is_object() ? summary.value("reason", last_line(log)) : last_line(log);
+    if (record.problem.empty()) record.problem = fmt::format("exit code {}, see {}", code, log.string());
+    return record;
+  }
+  versions = summary.at("versions");
+  return record;
+}
+
+void read_measures(StudyRecord& record, const std::vector<std::string>& columns, const fs::path& folder) {
+  if (!record.problem.empty()) return;
+  const nlohmann::json summary = read_summary(folder);
+  for (const std::string& column : columns) record.numbers[column] = measure(summary, column);
+}
+
+void show(const StudyReport& report, const StudyRecord& record) {
+  std::string line = fmt::format("[{}/{}]", report.records.size() + 1, report.plan.cases.size());
+  for (std::size_t k = 0; k < report.plan.labels.size(); ++k)
+    line += fmt::format(" {}={}", report.plan.labels[k], record.of.values[k]);
+  if (!record.problem.empty()) {
+    fmt::print("{}: {}\n", line, record.problem);
+  } else {
+    for (const std::string& name : report.plan.measures) line += fmt::format("  {} {:.6g}", name, record.numbers.at(name));
+    fmt::print("{}  ({:.2f} s)\n", line, record.numbers.at("seconds.total"));
+  }
+  std::fflush(stdout);
+}
+
+/// Draws the table; false, with a message, when that fails: the numbers are there all the same.
+bool draw(const StudyReport& report, const fs::path& folder) {
+  const fs::path script = own_executable().parent_path().parent_path() / "share/seam/plot_study.py";
+  // The plain python3 of a machine need not be the one that has Debian's packages.
+  const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+  std::vector<std::string> call{python, script.string(), (folder / "study.csv").string(), (folder / "study.png").string(),
+                                "--against", report.plan.labels[report.plan.against]};
+  for (const std::string& label : report.plan.labels) call.insert(call.end(), {"--key", label});
+  for (const std::string& name : report.plan.measures) call.insert(call.end(), {"--measure", name});
+  const fs::path log = folder / "plot.log";
+  if (run_program(call, log) == 0) {
+    fs::remove(log);
+    return true;
+  }
+  fmt::print(stderr, "warning: no picture was made ({}); see {}\n", last_line(log), log.string());
+  return false;
+}
+
+void write(const StudyReport& report, const fs::path& folder) {
+  write_text_atomically((folder / "study.csv").string(), csv(report));
+  const bool has_picture = draw(report, folder);
+  write_text_atomically((folder / "study.md").string(), markdown(report, has_picture ? "study.png" : ""));
+}
+
+/// Copies what is worth keeping to the documentation of the source tree one stands in.
+void keep(const fs::path& folder, const std::string& name) {
+  if (!fs::is_directory("docs"))
+    throw Error("--record: there is no folder docs here; call it in the top folder of the source tree");
+  const fs::path to = fs::path("docs/results") / name;
+  fs::create_directories(to);
+  for (const std::string file : {"study.csv", "study.md", "study.png"})
+    if (fs::exists(folder / file)) fs::copy_file(folder / file, to / file, fs::copy_options::overwrite_existing);
+  fmt::print("  recorded: {}\n", to.string());
+}
+
+int run(const Options& options) {
+  StudyReport report;
+  report.plan = plan_study(options.scene, options.set);
+  const fs::path folder =
+      options.folder.empty() ? fs::path("results") / (fs::path(options.scene).stem().string() + "-study") : options.folder;
+  nlohmann::json versions;
+  int bad = 0;
+  for (std::size_t i = 0; i < report.plan.cases.size(); ++i) {
+    const fs::path own = folder / fmt::format("case{:03}", i + 1);
+    StudyRecord record = run_case(report.plan, report.plan.cases[i], options, own, versions);
+    read_measures(record, report.columns(), own);
+    show(report, record);
+    bad += record.problem.empty() ? 0 : 1;
+    report.records.push_back(std::move(record));
+  }
+  const std::string fingerprint = versions.is_object() ? versions.value("fingerprint", "unknown") : "unknown";
+  report.title = fmt::format("Study of {}", fs::path(options.scene).filename().string());
+  report.circumstances = {
+      {"machine", machine()},
+      {"commit", commit(options.scene)},
+      {"date", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::chrono::system_clock::now()))},
+      {"versions", fmt::format("Seam {}, {}", SEAM_VERSION, fingerprint)},
+      {"each run", "one process on one core, field output off; seconds include meshing and set-up"},
+      {"command", command_line(options)}};
+  write(report, folder);
+  fmt::print("  table:   {}\n  picture: {}\n", (folder / "study.md").string(), (folder / "study.png").string());
+  if (!options.record.empty()) keep(folder, options.record);
+  return bad == 0 ? ok : failed;
+}
+
+}  // namespace
+
+Command study_command(CLI::App& parent) {
+  CLI::App* app = parent.add_subcommand("study", "Run a scene over the ranges of its study block and compare the runs");
+  auto options = std::make_shared<Options>();
+  app->add_option("scene", options->scene, "YAML file with a study block")->required();
+  app->add_option("--set", options->set, "replace a value in all runs: key.key=value; may be repeated")->take_all();
+  app->add_option("--folder", options->folder, "where results go; default results/<scene>-study");
+  app->add_option("--record", options->record, "copy table and picture to docs/results/<name>, too");
+  return {app, [options] { return run(*options); }};
+}
+
+}  // namespace seam::cli

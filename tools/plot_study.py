@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draws the table of `seam study`: each measure against a key of the scene, unknowns, seconds and memory."""
+
+import argparse
+import csv
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")  # no screen
+import matplotlib.pyplot as plt  # noqa: E402
+
+# Distinguishable with the common colour vision deficiencies (Okabe and Ito), and by their markers without colours.
+COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
+MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+
+
+def evaluate(text):
+    """A value of the table as a number: plain, or a quotient such as 1/16; NaN for anything else."""
+    try:
+        numerator, _, denominator = text.partition("/")
+        return float(numerator) / float(denominator or 1)
+    except (ValueError, ZeroDivisionError):
+        return math.nan
+
+
+def read(path):
+    """Rows of the table as dictionaries, and its title."""
+    with open(path, encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    title = next((line[1:].strip() for line in lines if line.startswith("#")), "")
+    return list(csv.DictReader(line for line in lines if not line.startswith("#"))), title
+
+
+def is_error(measure):
+    return measure.startswith("error(") or measure.endswith((".l2", ".h1"))
+
+
+def curves(rows, keys, against):
+    """Rows by the values of the keys that are not on the horizontal axis."""
+    groups = {}
+    for row in rows:
+        label = ", ".join(f"{key} {row[key]}" for key in keys if key != against)
+        groups.setdefault(label, []).append(row)
+    return groups
+
+
+def points(rows, x, y, scale, logarithmic):
+    """Pairs of numbers, sorted; those that a logarithmic axis cannot show are left out."""
+    pairs = [(evaluate(row[x]) * scale, evaluate(row[y])) for row in rows]
+    pairs = [p for p in pairs if math.isfinite(p[0]) and math.isfinite(p[1])]
+    return sorted(p for p in pairs if not logarithmic or (p[0] > 0 and p[1] > 0))
+
+
+def slope(pairs):
+    """Of the last two points in a doubly logarithmic plot, or None."""
+    if len(pairs) < 2 or pairs[-1][0] == pairs[-2][0]:
+        return None
+    (x0, y0), (x1, y1) = pairs[-2:]
+    return math.log(y1 / y0) / math.log(x1 / x0)
+
+
+def draw(axes, groups, x, y, label, scale=1.0, annotate=False):
+    logarithmic = is_error(y)
+    for k, (name, rows) in enumerate(groups.items()):
+        pairs = points(rows, x, y, scale, logarithmic)
+        if not pairs:
+            continue
+        text = name
+        if annotate and logarithmic and slope(pairs) is not None:
+            text = f"{name} (slope {slope(pairs):.2f})".strip()
+        axes.plot(*zip(*pairs), color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)], markersize=5,
+                  linewidth=1.4, label=text or None)
+    axes.set_xscale("log")
+    if logarithmic:
+        axes.set_yscale("log")
+    axes.set_xlabel(label)
+    axes.grid(True, which="major", color="0.8", linewidth=0.6)
+    axes.grid(True, which="minor", color="0.92", linewidth=0.4)
+
+
+def mark_values(axes, rows, key):
+    """The values of the study as ticks: powers of ten say little about 4, 8, 16, ..."""
+    values = sorted({evaluate(row[key]) for row in rows} - {math.nan})
+    texts = {evaluate(row[key]): row[key] for row in rows}
+    if 0 < len(values) <= 10:
+        axes.set_xticks(values)
+        axes.set_xticklabels([texts[v] for v in values])
+        axes.minorticks_off()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("table")
+    parser.add_argument("picture")
+    parser.add_argument("--against", required=True, help="column on the first horizontal axis")
+    parser.add_argument("--key", action="append", default=[], help="column that was varied; may be repeated")
+    parser.add_argument("--measure", action="append", default=[], help="column on the vertical axis; may be repeated")
+    options = parser.parse_args()
+
+    rows, title = read(options.table)
+    costs = {"unknowns", "seconds.total", "seconds.assembly", "seconds.linear", "peak_memory_bytes"}
+    measures = [m for m in options.measure if m not in costs] or options.measure
+    groups = curves(rows, options.key, options.against)
+    panels = [(options.against, options.against, 1.0), ("unknowns", "unknowns", 1.0),
+              ("seconds.total", "seconds", 1.0), ("peak_memory_bytes", "peak memory, MB", 1e-6)]
+    figure, grid = plt.subplots(len(measures), len(panels), figsize=(4.1 * len(panels), 3.8 * len(measures)),
+                                squeeze=False, sharey="row", constrained_layout=True)
+    for line, measure in zip(grid, measures):
+        for axes, (column, label, scale) in zip(line, panels):
+            draw(axes, groups, column, measure, label, scale, annotate=column == options.against)
+        mark_values(line[0], rows, options.against)
+        line[0].set_ylabel(measure)
+        if len(groups) > 1 or is_error(measure):
+            line[0].legend(fontsize=9, framealpha=0.9)
+    figure.suptitle(title, fontsize=12)
+    figure.savefig(options.picture, dpi=110)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+#!/usr/bin/env bash
+# Passes the tests; sets everything up first where that is needed.
+#   tools/test.sh                 build, fast, scenes, install
+#   tools/test.sh build fast      only these stages
+#   tools/test.sh all             everything, as continuous integration does
+#
+# build     compile, warnings are errors
+# fast      unit, property and command line tests
+# scenes    every scene of configs/ against its own checks
+# install   plugins built out of tree against an installed Seam
+# sanitize  the fast tests with address and undefined behaviour sanitizers
+# fuzz      the readers of scenes and meshes, 60 s each
+# format    clang-format
+# tidy      clang-tidy on the files that changed
+#
+# The last line counts test cases, scenes and the stages that hold a single one. The exit code is 0 only if none failed.
+set -uo pipefail
+source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+cd "$seam_root" || exit 1
+
+all_stages=(build fast scenes install sanitize fuzz format tidy)
+passed=0
+failed=0
+failed_stages=()
+
+count() {
+  passed=$((passed + $1))
+  failed=$((failed + $2))
+  [ "$2" = 0 ]
+}
+
+# For a stage that is one test: counts the exit code of the command before it.
+count_one() { if [ "$1" = 0 ]; then count 1 0; else count 0 1; fi; }
+
+# run_ctest FOLDER ARGUMENTS: runs ctest and counts its tests, those made with Catch2 by their cases.
+run_ctest() {
+  local folder=$1 log=$1/ctest.log
+  shift
+  ctest --test-dir "$folder" -V -j "$seam_jobs" --timeout 900 "$@" >"$log" 2>&1
+  local code=$?
+  grep -E '^ *[0-9]+/[0-9]+ Test +#' "$log"
+  if [ $code != 0 ]; then
+    # What failed, without the output of what did not.
+    local bad
+    bad=$(sed -nE 's/^ *[0-9]+\/[0-9]+ Test +#([0-9]+):.*(\*\*\*|Not Run).*/\1/p' "$log")
+    for number in $bad; do grep -E "^$number: " "$log" | tail -n 60; done
+    [ -n "$bad" ] || tail -n 20 "$log"
+  fi
+  # shellcheck disable=SC2046  # two numbers
+  count $(count_ctest "$log" $code)
+}
+
+# "passed failed" of a log of ctest -V, whose lines start with the number of the test they come from.
+count_ctest() {
+  awk -v code="$2" '
+    /^[0-9]+: All tests passed/ { n = $1; if (match($0, /in [0-9]+ test case/)) good[n] = substr($0, RSTART + 3) + 0 }
+    /^[0-9]+: test cases:/ {
+      n = $1
+      if (match($0, /[0-9]+ passed/)) good[n] = substr($0, RSTART) + 0
+      if (match($0, /[0-9]+ failed/)) bad[n] = substr($0, RSTART) + 0
+    }
+    /^ *[0-9]+\/[0-9]+ Test +#[0-9]+:/ {
+      match($0, /#[0-9]+:/); n = substr($0, RSTART + 1, RLENGTH - 1)
+      if ($0 ~ / Passed /) p += (n in good) ? good[n] : 1
+      else { p += good[n]; f += (bad[n] > 0) ? bad[n] : 1 }
+    }
+    END { if (code != 0 && f == 0) f = 1; print p + 0, f + 0 }' "$1"
+}
+
+stage_build() {
+  seam_configure "$seam_build" && seam_ninja "$seam_build"
+  count_one $?
+}
+
+stage_fast() { run_ctest "$seam_build" --label-exclude 'slow|install'; }
+
+stage_install() { run_ctest "$seam_build" --label-regex install; }
+
+stage_scenes() {
+  local log=$seam_build/scenes.log scenes
+  mapfile -t scenes < <(find "$seam_root/configs" -name '*.yaml' | sort)
+  mkdir -p "$seam_build/scenes"
+  (cd "$seam_build/scenes" && "$seam_build/bin/seam" verify "${scenes[@]}" --quiet) >"$log" 2>&1
+  local code=$? numbers
+  grep -E '^(ok  |FAIL) ' "$log" | sed "s|$seam_root/||"
+  numbers=$(sed -nE 's/^([0-9]+) passed, ([0-9]+) failed$/\1 \2/p' "$log")
+  # Without its last line the command broke off.
+  if [ $code != 0 ] || [ -z "$numbers" ]; then tail -n 40 "$log"; fi
+  # shellcheck disable=SC2086  # two numbers
+  count ${numbers:-0 1}
+}
+
+stage_sanitize() {
+  local folder=$seam_build-sanitize
+  seam_configure "$folder" -DSEAM_SANITIZE=ON -DCMAKE_BUILD_TYPE=Sanitize -DCMAKE_CXX_FLAGS_SANITIZE=-O1 &&
+    seam_ninja "$folder" || { count 0 1; return 1; }
+  # Open MPI and the libraries under it keep memory to the end; what Seam itself leaks is reported.
+  ASAN_OPTIONS=detect_leaks=1:abort_on_error=0 UBSAN_OPTIONS=print_stacktrace=1 \
+    LSAN_OPTIONS=suppressions=$seam_root/tests/lsan.txt:print_suppressions=0 \
+    run_ctest "$folder" --label-exclude 'slow|install|unsanitized'
+}
+
+stage_fuzz() {
+  local folder=$seam_build-fuzz
+  seam_configure "$folder" -DSEAM_FUZZ=ON -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ || { count 0 1; return 1; }
+  local targets=()
+  for source in tests/fuzz/*_fuzz.cpp; do targets+=("$(basename "$source" .cpp)"); done
+  seam_ninja "$folder" "${targets[@]}" || { count 0 1; return 1; }
+  # Each process is content with one core.
+  run_ctest "$folder"
+}
+
+sources() { find core plugins tools tests -name '*.cpp' -o -name '*.hpp'; }
+
+stage_format() {
+  sources | xargs clang-format --dry-run -Werror 2>"$seam_build/format.log"
+  local code=$?
+  [ $code = 0 ] || sed -nE 's/^([^:]+):[0-9]+:.*/\1/p' "$seam_build/format.log" | sort | uniq -c |
+    sed 's/$/: not formatted; clang-format -i mends it/'
+  count_one $code
+}
+
+stage_tidy() {
+  seam_configure "$seam_build" || { count 0 1; return 1; }
+  tools/tidy.sh "$seam_build"
+  count_one $?
+}
+
+run_stage() {
+  local start=$SECONDS code
+  echo "== $1"
+  "stage_$1"
+  code=$?
+  echo "-- $1: $([ $code = 0 ] && echo ok || echo FAILED), $((SECONDS - start)) s"
+  [ $code = 0 ] || failed_stages+=("$1")
+  return $code
+}
+
+stages=("$@")
+[ $# = 0 ] && stages=(build fast scenes install)
+[ "${stages[*]}" = all ] && stages=("${all_stages[@]}")
+for stage in "${stages[@]}"; do
+  if [[ " ${all_stages[*]} " != *" $stage "* ]]; then
+    echo "There is no stage '$stage'; there are: ${all_stages[*]}, and 'all'" >&2
+    exit 2
+  fi
+done
+
+echo "== packages"
+start=$SECONDS
+seam_install_packages || exit 1
+echo "-- packages: ok, $((SECONDS - start)) s"
+mkdir -p "$seam_build"
+for stage in "${stages[@]}"; do
+  # Nothing can be said about what does not compile.
+  run_stage "$stage" || { [ "$stage" = build ] && break; }
+done
+[ ${#failed_stages[@]} = 0 ] || echo "failed: ${failed_stages[*]}"
+echo "$passed passed, $failed failed"
+[ "$failed" = 0 ]
