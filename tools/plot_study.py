@@ -43,14 +43,17 @@ def curves(rows, keys, against):
     for row in rows:
         label = ", ".join(f"{key} {row[key]}" for key in keys if key != against)
         groups.setdefault(label, []).append(row)
+    # Along a curve the key grows; cost, which is measured, need not.
+    for group in groups.values():
+        group.sort(key=lambda row: evaluate(row[against]))
     return groups
 
 
 def points(rows, x, y, scale, logarithmic):
-    """Pairs of numbers, sorted; those that a logarithmic axis cannot show are left out."""
+    """Pairs of numbers in the order of the rows; those that a logarithmic axis cannot show are left out."""
     pairs = [(evaluate(row[x]) * scale, evaluate(row[y])) for row in rows]
     pairs = [p for p in pairs if math.isfinite(p[0]) and math.isfinite(p[1])]
-    return sorted(p for p in pairs if not logarithmic or (p[0] > 0 and p[1] > 0))
+    return [p for p in pairs if not logarithmic or (p[0] > 0 and p[1] > 0)]
 
 
 def slope(pairs):
@@ -72,7 +75,8 @@ def draw(axes, groups, x, y, label, scale=1.0, annotate=False):
             text = f"{name} (slope {slope(pairs):.2f})".strip()
         axes.plot(*zip(*pairs), color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)], markersize=5,
                   linewidth=1.4, label=text or None)
-    axes.set_xscale("log")
+    if x != "peak_memory_bytes":  # most of it is there before the problem is
+        axes.set_xscale("log")
     if logarithmic:
         axes.set_yscale("log")
     axes.set_xlabel(label)

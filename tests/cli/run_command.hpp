@@ -19,10 +19,16 @@ struct Result {
   std::string output;  ///< both streams
 };
 
+/// This program has started MPI itself; what it inherits from that would make mpirun and its children refuse
+/// to work.
+inline const std::string without_own_mpi =
+    "env $(env | sed -nE 's/^((OMPI|PMIX|OPAL)_[A-Za-z0-9_]*)=.*/-u \\1/p' | grep -v ALLOW) "
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ";
+
 /// @param before words before the command, such as `mpirun -np 2`
 inline Result seam(const std::string& arguments, const std::string& before = "") {
-  const std::string command =
-      "SEAM_PLUGIN_PATH=" SEAM_TEST_PLUGINS " " + before + " " SEAM_COMMAND " " + arguments + " 2>&1";
+  const std::string command = without_own_mpi + "SEAM_PLUGIN_PATH=" SEAM_TEST_PLUGINS " " + before +
+                              " " SEAM_COMMAND " " + arguments + " 2>&1";
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
   Result result{-1, ""};

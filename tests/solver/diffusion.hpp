@@ -84,7 +84,7 @@ inline std::unique_ptr<Problem> diffusion_problem(CellType cell, int n, const Op
 
 inline NewtonReport solve_static(Problem& problem, double time = 1) {
   MumpsSolver solver;
-  Newton newton(problem, solver, {1e-11, 25, true});
+  Newton newton(problem, solver, {1e-11, 1e-5, 25, true});
   const TimePoint at = time_point(time, 0, 1);
   problem.begin_step(at);
   return newton.solve(at);

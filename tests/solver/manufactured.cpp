@@ -113,7 +113,7 @@ std::unique_ptr<Problem> make_problem(const Body& body) {
 ErrorNorms solve(const Body& body, double theta, double end, int steps) {
   const auto problem = make_problem(body);
   MumpsSolver solver;
-  Newton newton(*problem, solver, {1e-11, 25, true});
+  Newton newton(*problem, solver, {1e-11, 1e-5, 25, true});
   problem->initialise(0);
   if (body.dynamic && problem->needs_initial_rates(theta)) newton.solve_initial_rates(0);
   const int count = body.dynamic ? steps : 1;

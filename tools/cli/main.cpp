@@ -28,9 +28,9 @@ int main(int argc, char** argv) {
   CLI::App app("Seam: multiphysics finite elements with physics in plugins");
   app.require_subcommand(1);
   app.set_version_flag("--version", SEAM_VERSION);
-  const std::vector<Command> commands{plugins_command(app), plugin_test_command(app), check_command(app), explain_command(app),
-                                      schema_command(app),  run_command(app),   verify_command(app),
-                                      study_command(app)};
+  const std::vector<Command> commands{plugins_command(app), plugin_test_command(app), check_command(app),
+                                      explain_command(app), schema_command(app),      run_command(app),
+                                      verify_command(app),  study_command(app)};
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

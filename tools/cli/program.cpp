@@ -54,7 +54,8 @@ std::string program_output(const std::vector<std::string>& arguments) {
   if (nowhere >= 0) close(nowhere);
   std::string text;
   char buffer[1024];
-  for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;) text.append(buffer, static_cast<std::size_t>(n));
+  for (ssize_t n = 0; (n = read(ends[0], buffer, sizeof buffer)) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
   close(ends[0]);
   if (child < 0 || wait_for(child) != 0) return "";
   while (!text.empty() && text.back() == '\n') text.pop_back();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -22,14 +23,42 @@ bool on_path(const std::string& program) {
   return false;
 }
 
-std::string last_lines(const std::filesystem::path& log) {
+/// What an MPI process finds in its environment about itself, and leaves to its children: an mpirun among
+/// them would take itself for a part of that job.
+std::vector<std::string> variables_of_outer_job() {
+  const std::vector<std::string> marks{"PMIX_",
+                                       "OMPI_COMM_",
+                                       "OMPI_UNIVERSE_",
+                                       "OMPI_APP_",
+                                       "OMPI_FIRST_",
+                                       "OMPI_NUM_",
+                                       "OMPI_ARGV",
+                                       "OMPI_COMMAND",
+                                       "OMPI_FILE_LOC",
+                                       "OMPI_MCA_orte_",
+                                       "OMPI_MCA_ess",
+                                       "OMPI_MCA_pmix",
+                                       "OMPI_MCA_mpi_oversubscribe"};
+  std::vector<std::string> names;
+  for (char** variable = environ; *variable; ++variable) {
+    const std::string entry = *variable;
+    const bool marked =
+        std::any_of(marks.begin(), marks.end(), [&](const std::string& m) { return entry.starts_with(m); });
+    if (marked) names.push_back(entry.substr(0, entry.find('=')));
+  }
+  return names;
+}
+
+/// What the run said first; mpirun's own remarks come after.
+std::string first_lines(const std::filesystem::path& log) {
+  constexpr int most = 8;
   std::ifstream in(log);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);)
-    if (!line.empty()) lines.push_back(line);
   std::string text;
-  for (std::size_t k = lines.size() > 8 ? lines.size() - 8 : 0; k < lines.size(); ++k)
-    text += (text.empty() ? "" : "\n") + lines[k];
+  int count = 0;
+  for (std::string line; count < most && std::getline(in, line);) {
+    if (line.empty() || line.starts_with("-----")) continue;
+    text += (count++ == 0 ? "" : "\n") + line;
+  }
   return text;
 }
 
@@ -46,15 +75,16 @@ ConformanceCheck run_on_ranks(const std::filesystem::path& scene, const Override
   for (const int n : ranks) {
     const std::filesystem::path results = folder / fmt::format("ranks_{}", n);
     std::filesystem::create_directories(results);
-    std::vector<std::string> call{"mpirun",      "--oversubscribe", "-np",      std::to_string(n), self,
-                                  "run",         scene.string(),    "--folder", results.string(),  "--quiet",
-                                  "--no-picture"};
+    std::vector<std::string> call{"env"};
+    for (const std::string& variable : variables_of_outer_job()) call.insert(call.end(), {"-u", variable});
+    call.insert(call.end(), {"mpirun", "--oversubscribe", "-np", std::to_string(n), self, "run",
+                             scene.string(), "--folder", results.string(), "--quiet", "--no-picture"});
     for (const auto& [key, value] : overrides) call.insert(call.end(), {"--set", key + "=" + value});
     // The scene's own checks are judged elsewhere.
     call.insert(call.end(), {"--set", "checks=[]"});
     if (run_program(call, results / "log.txt") != 0)
       return conformance_check(
-          name, false, fmt::format("the run on {} ranks fails:\n{}", n, last_lines(results / "log.txt")));
+          name, false, fmt::format("the run on {} ranks fails:\n{}", n, first_lines(results / "log.txt")));
     files.push_back(results / "series.csv");
   }
   return check_ranks(files, ranks);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // seam run: solve a scene and compare it with its own checks.
+#include "run.hpp"
+
 #include <fmt/format.h>
 
-#include "run.hpp"
 #include "session.hpp"
 
 namespace seam::cli {
@@ -12,9 +13,12 @@ void report(const SceneOutcome& outcome) {
   fmt::print("{}\n", outcome.title);
   if (!outcome.checks.empty()) fmt::print("{}", check_table(outcome.checks));
   const Timings& t = outcome.timings;
-  fmt::print("  {} unknowns, {:.2f} s: setup {:.2f}, pattern {:.2f}, assembly {:.2f}, linear solver {:.2f}, output {:.2f}; "
-             "{:.0f} MB\n", outcome.unknowns, t.total, t.setup, t.pattern, t.assembly, t.linear, t.output,
-             outcome.peak_memory / 1e6);
+  fmt::print(
+      "  {} unknowns, {:.2f} s: setup {:.2f}, pattern {:.2f}, assembly {:.2f}, linear solver {:.2f}, output "
+      "{:.2f}; "
+      "{:.0f} MB\n",
+      outcome.unknowns, t.total, t.setup, t.pattern, t.assembly, t.linear, t.output,
+      outcome.peak_memory / 1e6);
   fmt::print("  results: {}\n", outcome.folder.string());
   if (!outcome.picture.empty()) fmt::print("  picture: {}\n", outcome.picture.string());
 }
@@ -33,8 +37,8 @@ int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_roo
     try {
       const SceneOutcome outcome = run_scene(options);
       if (is_root)
-        fmt::print("{} {} ({} checks, {:.2f} s)\n{}", outcome.passed() ? "ok  " : "FAIL", scene, outcome.checks.size(),
-                   outcome.timings.total, check_table(outcome.checks));
+        fmt::print("{} {} ({} checks, {:.2f} s)\n{}", outcome.passed() ? "ok  " : "FAIL", scene,
+                   outcome.checks.size(), outcome.timings.total, check_table(outcome.checks));
       ++(outcome.passed() ? passed : bad);
     } catch (const Error&) {
       ++bad;
@@ -58,7 +62,8 @@ Command run_command(CLI::App& parent) {
   CLI::App* app = parent.add_subcommand("run", "Run a scene");
   auto options = std::make_shared<SceneRun>();
   app->add_option("scene", options->scene, "YAML file")->required();
-  app->add_option("--folder", options->folder, "where results go; default as the scene says, else results/<scene>");
+  app->add_option("--folder", options->folder,
+                  "where results go; default as the scene says, else results/<scene>");
   app->add_flag("--resume", options->resume, "continue from the newest restart point, if there is one");
   app->add_option("--stop-after", options->stop_after, "take so many steps only");
   add_common(app, *options);

@@ -13,7 +13,7 @@ namespace seam::cli {
 struct SceneRun {
   std::string scene;
   std::vector<std::string> set;
-  std::filesystem::path folder;   ///< empty: as the scene says, else results/<scene>
+  std::filesystem::path folder;  ///< empty: as the scene says, else results/<scene>
   bool resume = false;
   bool quiet = false;
   bool pictures = true;
@@ -26,10 +26,10 @@ struct SceneOutcome {
   Results results;
   std::vector<CheckResult> checks;
   std::filesystem::path folder;
-  std::filesystem::path picture;   ///< empty when none was made
+  std::filesystem::path picture;  ///< empty when none was made
   Timings timings;
   long long unknowns = 0;
-  double peak_memory = 0;          ///< bytes, over all ranks
+  double peak_memory = 0;  ///< bytes, over all ranks
   [[nodiscard]] bool passed() const;
 };
 
@@ -39,8 +39,8 @@ class RunFailure : public Error {
 };
 
 /// Loads, runs, checks and records a scene; writes summary.json. Collective.
-/// @throws Error when the scene is broken; RunFailure when its solution fails: then summary.json holds the reason, and
-/// the last good state is in the folder.
+/// @throws Error when the scene is broken; RunFailure when its solution fails: then summary.json holds the
+/// reason, and the last good state is in the folder.
 SceneOutcome run_scene(const SceneRun& run);
 
 }  // namespace seam::cli

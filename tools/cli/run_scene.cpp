@@ -26,9 +26,15 @@ std::filesystem::path make_picture(const Scene& scene, const std::filesystem::pa
   const Parameters& p = output.object("picture");
   const std::filesystem::path picture = folder / "picture.png";
   const auto beside = own_executable().parent_path() / "seam-picture";
-  std::vector<std::string> call{beside.string(), (folder / (p.text("field") + ".pvd")).string(), picture.string(),
-                                "--array", p.text("quantity"), "--width", std::to_string(p.integer("width")),
-                                "--title", scene.root.text("title")};
+  std::vector<std::string> call{beside.string(),
+                                (folder / (p.text("field") + ".pvd")).string(),
+                                picture.string(),
+                                "--array",
+                                p.text("quantity"),
+                                "--width",
+                                std::to_string(p.integer("width")),
+                                "--title",
+                                scene.root.text("title")};
   if (p.has("component")) call.insert(call.end(), {"--component", p.text("component")});
   if (p.number("deformed") != 0)
     call.insert(call.end(), {"--deform", "displacement", "--scale", fmt::format("{}", p.number("deformed"))});
@@ -42,18 +48,21 @@ void write_summary(const nlohmann::json& summary, const std::filesystem::path& f
 
 /// Within a catch block: leaves the last good state and the reason on disk.
 /// @returns what to tell the user, the same on all ranks
-std::string record_failure(Simulation& simulation, const std::filesystem::path& folder, const Communicator& communicator) {
+std::string record_failure(Simulation& simulation, const std::filesystem::path& folder,
+                           const Communicator& communicator) {
   const std::string message = agree_on_exception();
   try {
     simulation.record_failure(message);
     const nlohmann::json summary = simulation.summary({});
     if (communicator.rank() == 0) write_summary(summary, folder);
   } catch (const std::exception& error) {
-    // What made the run fail (a full disk, say) may prevent its record, too; the first reason is the one to show.
+    // What made the run fail (a full disk, say) may prevent its record, too; the first reason is the one to
+    // show.
     return fmt::format("error: {}\nthe last good state could not be saved: {}", message, error.what());
   }
-  return fmt::format("error: {}\nThe last good state (t = {:.6g}, step {}) is in {}; `seam run --resume` starts from it", message,
-                     simulation.time(), simulation.step_number(), folder.string());
+  return fmt::format(
+      "error: {}\nThe last good state (t = {:.6g}, step {}) is in {}; `seam run --resume` starts from it",
+      message, simulation.time(), simulation.step_number(), folder.string());
 }
 
 }  // namespace

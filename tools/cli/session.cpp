@@ -17,11 +17,12 @@
 namespace seam::cli {
 namespace {
 
-/// A communicator for the agreement alone: the ranks that are well may be within a collective of the other one.
+/// A communicator for the agreement alone: the ranks that are well may be within a collective of the other
+/// one.
 MPI_Comm failures = MPI_COMM_NULL;
 
-/// True when all ranks come here within some seconds. Ranks throw the same error at almost the same time; one that
-/// waits for us in a collective operation never comes.
+/// True when all ranks come here within some seconds. Ranks throw the same error at almost the same time; one
+/// that waits for us in a collective operation never comes.
 bool all_ranks_come() {
   constexpr double patience = 5;
   MPI_Request request = MPI_REQUEST_NULL;

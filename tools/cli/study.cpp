@@ -44,14 +44,16 @@ std::string machine() {
   utsname name{};
   uname(&name);
   const std::string model = line_of("/proc/cpuinfo", "model name");
-  return fmt::format("{} {} {}, {}{} cores", name.sysname, name.release, name.machine,
+  const std::string release = std::string(name.release).substr(0, std::string(name.release).find('-'));
+  return fmt::format("{} {} {}, {}{} cores", name.sysname, release, name.machine,
                      model.empty() ? "" : model + ", ", std::thread::hardware_concurrency());
 }
 
 /// The commit of the folder a file lies in, or "unknown".
 std::string commit(const fs::path& file) {
   // The folder may belong to another user than the one who runs this.
-  const std::vector<std::string> git{"git", "-c", "safe.directory=*", "-C", fs::absolute(file).parent_path().string()};
+  const std::vector<std::string> git{"git", "-c", "safe.directory=*", "-C",
+                                     fs::absolute(file).parent_path().string()};
   const auto ask = [&](std::vector<std::string> words) {
     words.insert(words.begin(), git.begin(), git.end());
     return program_output(words);
@@ -86,12 +88,17 @@ nlohmann::json read_summary(const fs::path& folder) {
 }
 
 /// Runs a case in a process of its own, so that its seconds and its peak memory are its own.
-StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options& options, const fs::path& folder,
-                     nlohmann::json& versions) {
+StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options& options,
+                     const fs::path& folder, nlohmann::json& versions) {
   StudyRecord record{one, "", {}};
   fs::remove_all(folder);
   fs::create_directories(folder);
-  std::vector<std::string> call{own_executable().string(), "run", options.scene, "--quiet", "--no-picture", "--folder",
+  std::vector<std::string> call{own_executable().string(),
+                                "run",
+                                options.scene,
+                                "--quiet",
+                                "--no-picture",
+                                "--folder",
                                 folder.string()};
   std::vector<std::string> set{"output.fields=false"};
   set.insert(set.end(), options.set.begin(), options.set.end());
@@ -126,7 +133,8 @@ void show(const StudyReport& report, const StudyRecord& record) {
   if (!record.problem.empty()) {
     fmt::print("{}: {}\n", line, record.problem);
   } else {
-    for (const std::string& name : report.plan.measures) line += fmt::format("  {} {:.6g}", name, record.numbers.at(name));
+    for (const std::string& name : report.plan.measures)
+      line += fmt::format("  {} {:.6g}", name, record.numbers.at(name));
     fmt::print("{}  ({:.2f} s)\n", line, record.numbers.at("seconds.total"));
   }
   std::fflush(stdout);
@@ -137,8 +145,12 @@ bool draw(const StudyReport& report, const fs::path& folder) {
   const fs::path script = own_executable().parent_path().parent_path() / "share/seam/plot_study.py";
   // The plain python3 of a machine need not be the one that has Debian's packages.
   const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
-  std::vector<std::string> call{python, script.string(), (folder / "study.csv").string(), (folder / "study.png").string(),
-                                "--against", report.plan.labels[report.plan.against]};
+  std::vector<std::string> call{python,
+                                script.string(),
+                                (folder / "study.csv").string(),
+                                (folder / "study.png").string(),
+                                "--against",
+                                report.plan.labels[report.plan.against]};
   for (const std::string& label : report.plan.labels) call.insert(call.end(), {"--key", label});
   for (const std::string& name : report.plan.measures) call.insert(call.end(), {"--measure", name});
   const fs::path log = folder / "plot.log";
@@ -163,15 +175,17 @@ void keep(const fs::path& folder, const std::string& name) {
   const fs::path to = fs::path("docs/results") / name;
   fs::create_directories(to);
   for (const std::string file : {"study.csv", "study.md", "study.png"})
-    if (fs::exists(folder / file)) fs::copy_file(folder / file, to / file, fs::copy_options::overwrite_existing);
+    if (fs::exists(folder / file))
+      fs::copy_file(folder / file, to / file, fs::copy_options::overwrite_existing);
   fmt::print("  recorded: {}\n", to.string());
 }
 
 int run(const Options& options) {
   StudyReport report;
   report.plan = plan_study(options.scene, options.set);
-  const fs::path folder =
-      options.folder.empty() ? fs::path("results") / (fs::path(options.scene).stem().string() + "-study") : options.folder;
+  const fs::path folder = options.folder.empty()
+                              ? fs::path("results") / (fs::path(options.scene).stem().string() + "-study")
+                              : options.folder;
   nlohmann::json versions;
   int bad = 0;
   for (std::size_t i = 0; i < report.plan.cases.size(); ++i) {
@@ -183,7 +197,7 @@ int run(const Options& options) {
     report.records.push_back(std::move(record));
   }
   const std::string fingerprint = versions.is_object() ? versions.value("fingerprint", "unknown") : "unknown";
-  report.title = fmt::format("Study of {}", fs::path(options.scene).filename().string());
+  report.title = fmt::format("{}: {}", fs::path(options.scene).filename().string(), report.plan.title);
   report.circumstances = {
       {"machine", machine()},
       {"commit", commit(options.scene)},
@@ -192,7 +206,8 @@ int run(const Options& options) {
       {"each run", "one process on one core, field output off; seconds include meshing and set-up"},
       {"command", command_line(options)}};
   write(report, folder);
-  fmt::print("  table:   {}\n  picture: {}\n", (folder / "study.md").string(), (folder / "study.png").string());
+  fmt::print("  table:   {}\n  picture: {}\n", (folder / "study.md").string(),
+             (folder / "study.png").string());
   if (!options.record.empty()) keep(folder, options.record);
   return bad == 0 ? ok : failed;
 }
@@ -200,10 +215,12 @@ int run(const Options& options) {
 }  // namespace
 
 Command study_command(CLI::App& parent) {
-  CLI::App* app = parent.add_subcommand("study", "Run a scene over the ranges of its study block and compare the runs");
+  CLI::App* app =
+      parent.add_subcommand("study", "Run a scene over the ranges of its study block and compare the runs");
   auto options = std::make_shared<Options>();
   app->add_option("scene", options->scene, "YAML file with a study block")->required();
-  app->add_option("--set", options->set, "replace a value in all runs: key.key=value; may be repeated")->take_all();
+  app->add_option("--set", options->set, "replace a value in all runs: key.key=value; may be repeated")
+      ->take_all();
   app->add_option("--folder", options->folder, "where results go; default results/<scene>-study");
   app->add_option("--record", options->record, "copy table and picture to docs/results/<name>, too");
   return {app, [options] { return run(*options); }};

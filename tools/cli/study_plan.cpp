@@ -22,7 +22,8 @@ Scene load(const std::string& file, const std::vector<std::string>& set) {
 }
 
 /// The key path of a name in `vary`, where a parameter may be called by its name alone.
-/// @throws Error for a parameter that the scene does not have: overriding it would make it, and change nothing
+/// @throws Error for a parameter that the scene does not have: overriding it would make it, and change
+/// nothing
 std::string key_path(const std::string& name, const Scene& scene, const Location& where) {
   const bool is_prefixed = name.starts_with(parameters_prefix);
   if (!is_prefixed && name.find('.') != std::string::npos) return name;
@@ -43,7 +44,8 @@ std::size_t find_key(const std::string& name, const Parameters::Value::Map& vary
   for (const auto& entry : vary) known.push_back(entry.first);
   const auto found = std::find(known.begin(), known.end(), name);
   if (found == known.end())
-    throw Error(where, fmt::format("study.{}: '{}' is no key of `vary`. Known: {}", what, name, fmt::join(known, ", ")));
+    throw Error(where, fmt::format("study.{}: '{}' is no key of `vary`. Known: {}", what, name,
+                                   fmt::join(known, ", ")));
   return static_cast<std::size_t>(found - known.begin());
 }
 
@@ -59,9 +61,10 @@ std::vector<std::vector<std::size_t>> groups(const Parameters& study, const Para
   const auto count = [&](std::size_t key) { return vary[key].second.names("values").size(); };
   for (const std::size_t key : together)
     if (count(key) != count(together.front()))
-      throw Error(study.where("together"),
-                  fmt::format("study.together: '{}' has {} values and '{}' has {}; expected as many of each",
-                              vary[together.front()].first, count(together.front()), vary[key].first, count(key)));
+      throw Error(
+          study.where("together"),
+          fmt::format("study.together: '{}' has {} values and '{}' has {}; expected as many of each",
+                      vary[together.front()].first, count(together.front()), vary[key].first, count(key)));
   std::vector<std::vector<std::size_t>> result;
   bool placed = false;
   for (std::size_t key = 0; key < vary.size(); ++key) {
@@ -110,8 +113,9 @@ bool examine(StudyCase& one, const StudyPlan& plan, const std::string& file, std
   const Parameters& study = scene.root.object("study");
   for (const std::string& value : one.values) one.numbers.push_back(number_or_nan(value, scene.parameters));
   if (!std::isfinite(one.numbers[plan.against]))
-    throw Error(study.where("vary"), fmt::format("study.against: '{}' is '{}', which is no number; choose another key",
-                                                 plan.labels[plan.against], one.values[plan.against]));
+    throw Error(study.where("vary"),
+                fmt::format("study.against: '{}' is '{}', which is no number; choose another key",
+                            plan.labels[plan.against], one.values[plan.against]));
   try {
     return !study.has("leave_out") || evaluate_constant(study.text("leave_out"), scene.parameters) == 0;
   } catch (const Error& error) {
@@ -136,15 +140,19 @@ StudyPlan plan_study(const std::string& scene_file, const std::vector<std::strin
   if (vary.empty()) throw Error(study.where("vary"), "study.vary: expected at least one key with its values");
 
   StudyPlan plan;
+  plan.title = scene.root.text("title");
   plan.measures = study.names("measure");
   for (const auto& [name, values] : vary) {
     plan.keys.push_back(key_path(name, scene, values.where()));
     const bool is_parameter = plan.keys.back().starts_with(parameters_prefix);
-    plan.labels.push_back(is_parameter ? plan.keys.back().substr(parameters_prefix.size()) : plan.keys.back());
-    if (values.names("values").empty()) throw Error(values.where(), fmt::format("study.vary.{}: no values", name));
+    plan.labels.push_back(is_parameter ? plan.keys.back().substr(parameters_prefix.size())
+                                       : plan.keys.back());
+    if (values.names("values").empty())
+      throw Error(values.where(), fmt::format("study.vary.{}: no values", name));
   }
-  plan.against = study.has("against") ? find_key(study.text("against"), vary, study.where("against"), "against")
-                                      : vary.size() - 1;
+  plan.against = study.has("against")
+                     ? find_key(study.text("against"), vary, study.where("against"), "against")
+                     : vary.size() - 1;
   for (StudyCase& one : combinations(study, vary))
     if (examine(one, plan, scene_file, set)) plan.cases.push_back(std::move(one));
   if (plan.cases.empty()) throw Error(study.where(), "study: `leave_out` leaves out all cases");

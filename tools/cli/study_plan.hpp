@@ -16,6 +16,7 @@ struct StudyCase {
 
 /// What a scene's `study` block asks for.
 struct StudyPlan {
+  std::string title;                  ///< of the scene
   std::vector<std::string> keys;      ///< key paths of the scene
   std::vector<std::string> labels;    ///< the same for readers: parameters by their names
   std::vector<std::string> measures;  ///< numbers of each run

@@ -9,6 +9,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "seam/scene/expression.hpp"
+
 namespace seam::cli {
 namespace {
 
@@ -16,16 +18,31 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 double as_number(const nlohmann::json& value) { return value.is_number() ? value.get<double>() : none; }
 
-/// |value - is| / |is| of the check of that name; the difference itself where `is` is 0.
-double deviation(const nlohmann::json& summary, const std::string& name) {
+/// |value - reference| / |reference|; the difference itself where the reference is 0.
+double relative_error(double value, double reference) {
+  return std::abs(value - reference) / (reference == 0 ? 1 : std::abs(reference));
+}
+
+/// error(NAME): against what the check of that name expects.
+double error_of_check(const nlohmann::json& summary, const std::string& name) {
   std::vector<std::string> known;
   for (const auto& check : summary.at("checks")) {
     if (!check.contains("is")) continue;
     known.push_back(check.at("that"));
-    if (known.back() == name) return std::abs(as_number(check.at("deviation")));
+    if (known.back() == name) return relative_error(as_number(check.at("value")), as_number(check.at("is")));
   }
-  throw Error(fmt::format("study.measure: error({0}) needs a check of '{0}' with `is`. The scene has such checks of: {1}",
-                          name, known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+  throw Error(fmt::format(
+      "study.measure: error({0}) needs a check of '{0}' with `is`; error({0}, VALUE) gives the reference "
+      "itself. The scene has such checks of: {1}",
+      name, known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
+/// error(NAME) or error(NAME, REFERENCE).
+double error_measure(const nlohmann::json& summary, const std::string& inside) {
+  const std::size_t comma = inside.rfind(',');
+  if (comma == std::string::npos) return error_of_check(summary, inside);
+  return relative_error(measure(summary, inside.substr(0, comma)),
+                        evaluate_constant(inside.substr(comma + 1), {}));
 }
 
 std::vector<std::string> keys(const nlohmann::json& object) {
@@ -64,13 +81,15 @@ double number(const StudyRecord& record, const std::string& column) {
 
 std::vector<std::string> StudyReport::columns() const {
   std::vector<std::string> result = plan.measures;
-  for (const std::string cost : {"unknowns", "seconds.total", "seconds.assembly", "seconds.linear", "peak_memory_bytes"})
+  for (const std::string cost :
+       {"unknowns", "seconds.total", "seconds.assembly", "seconds.linear", "peak_memory_bytes"})
     if (std::find(result.begin(), result.end(), cost) == result.end()) result.push_back(cost);
   return result;
 }
 
 double measure(const nlohmann::json& summary, const std::string& name) {
-  if (name.starts_with("error(") && name.ends_with(")")) return deviation(summary, name.substr(6, name.size() - 7));
+  if (name.starts_with("error(") && name.ends_with(")"))
+    return error_measure(summary, name.substr(6, name.size() - 7));
   const std::string seconds = "seconds.";
   if (name.starts_with(seconds) && summary.at("seconds").contains(name.substr(seconds.size())))
     return as_number(summary.at("seconds").at(name.substr(seconds.size())));
@@ -79,10 +98,11 @@ double measure(const nlohmann::json& summary, const std::string& name) {
   const nlohmann::json& results = summary.at("results");
   if (results.contains(name)) return as_number(results.at(name));
   const std::string guess = nearest_name(name, keys(results));
-  throw Error(fmt::format("study.measure: the run has no '{}'.{} It has: {}, unknowns, steps, rejected_steps, "
-                          "peak_memory_bytes, seconds.{}",
-                          name, guess.empty() ? "" : fmt::format(" Did you mean '{}'?", guess),
-                          fmt::join(keys(results), ", "), fmt::join(keys(summary.at("seconds")), ", seconds.")));
+  throw Error(
+      fmt::format("study.measure: the run has no '{}'.{} It has: {}, unknowns, steps, rejected_steps, "
+                  "peak_memory_bytes, seconds.{}",
+                  name, guess.empty() ? "" : fmt::format(" Did you mean '{}'?", guess),
+                  fmt::join(keys(results), ", "), fmt::join(keys(summary.at("seconds")), ", seconds.")));
 }
 
 bool is_error(const std::string& measure) {

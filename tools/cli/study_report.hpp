@@ -38,7 +38,8 @@ double measure(const nlohmann::json& summary, const std::string& name);
 /// True for numbers that go to zero: then an order of convergence can be observed.
 bool is_error(const std::string& measure);
 
-/// Observed order of a measure between a record and the one before it on the horizontal axis; NaN without one.
+/// Observed order of a measure between a record and the one before it on the horizontal axis; NaN without
+/// one.
 double observed_order(const StudyReport& report, std::size_t record, const std::string& measure);
 
 /// Comma-separated, one line a case, the circumstances before it as comments.

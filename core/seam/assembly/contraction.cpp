@@ -118,4 +118,15 @@ SEAM_VERSIONS void contract(const Contraction& work, std::vector<double>& scratc
     }
 }
 
+SEAM_VERSIONS void add_absolute_product(int size, const double* matrix, const double* x, double* y) {
+  for (int i = 0; i < size; ++i, matrix += size) {
+    Pack4 sum{};
+    for (int j = 0; j < size; j += 4) {
+      const Pack4 entry = load<Pack4>(matrix + j);
+      sum += (entry < 0 ? -entry : entry) * load<Pack4>(x + j);
+    }
+    y[i] += sum[0] + sum[1] + sum[2] + sum[3];
+  }
+}
+
 }  // namespace seam

@@ -31,4 +31,7 @@ struct Contraction {
 /// is chosen at run time.
 void contract(const Contraction& work, std::vector<double>& scratch);
 
+/// y[i] += sum over j of |matrix[i][j]| x[j], for a square matrix of `size` rows.
+void add_absolute_product(int size, const double* matrix, const double* x, double* y);
+
 }  // namespace seam

@@ -86,6 +86,20 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
     add_residual(term);
     if (with_tangent && term.columns > 0) add_tangent(term);
   }
+  if (with_tangent) add_change_to_magnitude();
+}
+
+void ElementEvaluator::add_change_to_magnitude() {
+  change_.assign(size_, 0.0);
+  for (const Part& part : parts_) {
+    const int* nodes = element_.sides[part.side].nodes[part.block];
+    for (int a = 0; a < part.nodes; ++a)
+      for (int c = 0; c < part.components; ++c) {
+        const std::size_t i = static_cast<std::size_t>(nodes[a]) * part.components + c;
+        change_[part.offset + c * part.stride + a] = std::abs(part.states->now.value[i] - part.states->old.value[i]);
+      }
+  }
+  add_absolute_product(size_, matrix_.data(), change_.data(), magnitude_.data());
 }
 
 const std::vector<double>& ElementEvaluator::compute_values(int index, const TimePoint& at) {

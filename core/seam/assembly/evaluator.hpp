@@ -57,7 +57,8 @@ class ElementEvaluator {
   [[nodiscard]] const Element& element() const { return element_; }
   /// [row]
   [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
-  /// Sum over the terms and points of the absolute contributions, [row]: the scale of the residual.
+  /// What the residual's size is measured by, [row]: the sum of the absolute contributions of all terms and points
+  /// and, with the tangent, |K| |change since the start of the step|, which sees forces that cancel within a term.
   [[nodiscard]] const std::vector<double>& magnitude() const { return magnitude_; }
   /// [row][column]
   [[nodiscard]] const std::vector<double>& matrix() const { return matrix_; }
@@ -88,6 +89,7 @@ class ElementEvaluator {
   void compute_operators();
   void compute_normal_operators(int part);
   void gather();
+  void add_change_to_magnitude();
   void compute_inputs(const Compiled& term);
   void evaluate(const Compiled& term, const TimePoint& at, bool with_tangent);
   void add_residual(const Compiled& term);
@@ -103,7 +105,7 @@ class ElementEvaluator {
   /// Nodal values of every level, [level][row].
   std::vector<double> local_[5];
   bool level_used_[5] = {true, false, false, false, false};
-  std::vector<double> inputs_, point_residual_, point_tangent_, scratch_;
+  std::vector<double> inputs_, point_residual_, point_tangent_, scratch_, change_;
   Contraction work_;
   std::vector<double> residual_, magnitude_, matrix_;
 };

@@ -8,8 +8,12 @@
 
 namespace seam {
 
-/// Derivative of f(s), a vector, at s = 0 by central differences of fourth order. With the step 1e-3 of the
-/// scale on which f changes, truncation and rounding are both some 1e-12 relative.
+/// Steps to try, relative to the scale on which f changes; the best one counts. With the right one, truncation and
+/// rounding are both some 1e-12 relative; a nearly incompressible body changes on a much shorter scale than its
+/// cells, and its large modulus makes the rounding of its small stresses visible.
+inline constexpr double difference_steps[] = {1e-3, 1e-2, 1e-4, 1e-5, 1e-6};
+
+/// Derivative of f(s), a vector, at s = 0 by central differences of fourth order.
 template <class Function>
 std::vector<double> central_difference(Function&& f, double step) {
   const std::vector<double> p1 = f(step), m1 = f(-step), p2 = f(2 * step), m2 = f(-2 * step);

@@ -44,28 +44,35 @@ struct Errors {
   double gradient = 0, hessian = 0, asymmetry = 0;
 };
 
+/// Energy and gradient at a changed invariant j.
+std::vector<double> changed(const Potential& material, Invariants at, int j, double step) {
+  at[j] += step;
+  const Evaluation there(material, at);
+  return {there.value, there.gradient[0], there.gradient[1], there.gradient[2]};
+}
+
 Errors derivative_errors(const Potential& material, const Invariants& at) {
   const Evaluation here(material, at);
-  const double gradient_scale = largest(here.gradient), hessian_scale = largest(here.hessian);
+  const double gradient_scale = largest(here.gradient);
   // A linear energy has no second derivatives: measure the error against what they would do to the gradient.
-  const double second_scale = std::max(hessian_scale, 1e-6 * gradient_scale);
+  const double hessian_scale = std::max(largest(here.hessian), 1e-6 * gradient_scale);
   Errors errors;
   for (int j = 0; j < 3; ++j) {
-    const auto derivative = central_difference(
-        [&](double s) {
-          Invariants moved = at;
-          moved[j] += s;
-          const Evaluation there(material, moved);
-          return std::vector<double>{there.value, there.gradient[0], there.gradient[1], there.gradient[2]};
-        },
-        1e-3);
-    errors.gradient = worse(errors.gradient, std::abs(derivative[0] - here.gradient[j]) / gradient_scale);
-    for (int i = 0; i < 3; ++i) {
-      errors.hessian =
-          worse(errors.hessian, std::abs(derivative[1 + i] - here.hessian[i * 3 + j]) / second_scale);
-      errors.asymmetry =
-          worse(errors.asymmetry, std::abs(here.hessian[i * 3 + j] - here.hessian[j * 3 + i]) / second_scale);
+    double gradient_error = INFINITY, hessian_error = INFINITY;
+    for (const double step : difference_steps) {
+      const auto derivative = central_difference([&](double s) { return changed(material, at, j, s); }, step);
+      gradient_error =
+          std::min(gradient_error, worse(0, std::abs(derivative[0] - here.gradient[j]) / gradient_scale));
+      double column = 0;
+      for (int i = 0; i < 3; ++i)
+        column = worse(column, std::abs(derivative[1 + i] - here.hessian[i * 3 + j]) / hessian_scale);
+      hessian_error = std::min(hessian_error, column);
     }
+    errors.gradient = worse(errors.gradient, gradient_error);
+    errors.hessian = worse(errors.hessian, hessian_error);
+    for (int i = 0; i < 3; ++i)
+      errors.asymmetry = worse(errors.asymmetry,
+                               std::abs(here.hessian[i * 3 + j] - here.hessian[j * 3 + i]) / hessian_scale);
   }
   return errors;
 }

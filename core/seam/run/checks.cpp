@@ -58,7 +58,8 @@ CheckResult evaluate(const Parameters& check, const Results& results) {
     result.passed = result.passed && result.value <= check.number("at_most");
     expected.push_back(fmt::format("<= {:.4g}", check.number("at_most")));
   }
-  if (expected.empty()) throw Error(check.where(), "a check needs `is` with `within`, `at_least` or `at_most`");
+  if (expected.empty())
+    throw Error(check.where(), "a check needs `is` with `within`, `at_least` or `at_most`");
   for (const std::string& e : expected) result.expected += (result.expected.empty() ? "" : ", ") + e;
   return result;
 }
@@ -77,11 +78,11 @@ std::string check_table(const std::vector<CheckResult>& checks) {
     name = std::max(name, c.that.size());
     expected = std::max(expected, c.expected.size());
   }
-  std::string table = fmt::format("  {:{}}  {:>14}  {:{}}  {:>10}  source\n", "check", name + 6, "value", "expected",
-                                  expected, "deviation");
+  std::string table = fmt::format("  {:{}}  {:>14}  {:{}}  {:>10}  source\n", "check", name + 6, "value",
+                                  "expected", expected, "deviation");
   for (const CheckResult& c : checks)
-    table += fmt::format("  {}  {:{}}  {:>14.7g}  {:{}}  {:>+10.2e}  {}\n", c.passed ? "ok  " : "FAIL", c.that, name,
-                         c.value, c.expected, expected, c.deviation, c.source);
+    table += fmt::format("  {}  {:{}}  {:>14.7g}  {:{}}  {:>+10.2e}  {}\n", c.passed ? "ok  " : "FAIL",
+                         c.that, name, c.value, c.expected, expected, c.deviation, c.source);
   return table;
 }
 

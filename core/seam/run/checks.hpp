@@ -14,9 +14,9 @@ namespace seam {
 struct CheckResult {
   std::string that;
   double value = 0;
-  std::optional<double> is;   ///< true value, when the check gives one
-  std::string expected;   ///< "13.772 within 0.1%"
-  double deviation = 0;   ///< from `is`, relative unless `is` is 0
+  std::optional<double> is;  ///< true value, when the check gives one
+  std::string expected;      ///< "13.772 within 0.1%"
+  double deviation = 0;      ///< from `is`, relative unless `is` is 0
   bool passed = false;
   std::string source;
 };

@@ -33,7 +33,8 @@ std::vector<double> collect(const Block& block, const std::vector<double>& value
   std::vector<std::vector<int>> nodes(communicator.size());
   std::vector<std::vector<double>> data(communicator.size());
   for (int n = 0; n < space.owned_nodes(); ++n) nodes[0].push_back(space.global_node(n));
-  data[0].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(space.owned_nodes()) * block.size);
+  data[0].assign(values.begin(),
+                 values.begin() + static_cast<std::ptrdiff_t>(space.owned_nodes()) * block.size);
   const auto all_nodes = communicator.exchange(nodes);
   const auto all_data = communicator.exchange(data);
   if (communicator.rank() != 0) return {};
@@ -56,7 +57,8 @@ void write_durably(const std::filesystem::path& file, const std::string& bytes) 
   }
   good = good && ::fsync(handle) == 0;
   if (handle >= 0) ::close(handle);
-  if (!good) throw Error(fmt::format("cannot write the restart point '{}': is the disk full?", part.string()));
+  if (!good)
+    throw Error(fmt::format("cannot write the restart point '{}': is the disk full?", part.string()));
   std::filesystem::rename(part, file);
 }
 
@@ -78,15 +80,20 @@ std::string read_all(const std::filesystem::path& file) {
 /// Header and payload of a complete file; throws when anything is damaged.
 nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes, const double*& payload,
                      std::size_t& count) {
-  const auto damaged = [&] { return Error(fmt::format("the restart point '{}' is damaged or incomplete", file.string())); };
+  const auto damaged = [&] {
+    return Error(fmt::format("the restart point '{}' is damaged or incomplete", file.string()));
+  };
   std::uint64_t length = 0, sum = 0;
   constexpr std::size_t fixed = sizeof magic + sizeof length;
-  if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + sizeof magic, bytes.begin())) throw damaged();
+  if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + sizeof magic, bytes.begin()))
+    throw damaged();
   std::copy_n(bytes.data() + sizeof magic, sizeof length, reinterpret_cast<char*>(&length));
   std::copy_n(bytes.data() + bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<char*>(&sum));
-  if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum || length > bytes.size() - fixed - sizeof sum)
+  if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum ||
+      length > bytes.size() - fixed - sizeof sum)
     throw damaged();
-  const auto header = nlohmann::json::parse(bytes.begin() + fixed, bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length));
+  const auto header = nlohmann::json::parse(bytes.begin() + fixed,
+                                            bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length));
   payload = reinterpret_cast<const double*>(bytes.data() + fixed + length);
   count = (bytes.size() - fixed - length - sizeof sum) / sizeof(double);
   return header;
@@ -107,7 +114,8 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   for (const FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
       const Block& block = entry.field->blocks()[b];
-      header["blocks"].push_back({{"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}});
+      header["blocks"].push_back(
+          {{"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}});
       for (int l = 0; l < 3; ++l) {
         const auto values = collect(block, *level(block, l));
         payload.insert(payload.end(), values.begin(), values.end());
@@ -138,17 +146,19 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   for (FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
       Block& block = entry.field->blocks()[b];
-      const nlohmann::json expected = {{"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}};
+      const nlohmann::json expected = {
+          {"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}};
       if (which >= header["blocks"].size() || header["blocks"][which] != expected)
-        throw Error(fmt::format("the restart point '{}' was written by another scene: it does not hold {}", file.string(),
-                                expected.dump()));
+        throw Error(fmt::format("the restart point '{}' was written by another scene: it does not hold {}",
+                                file.string(), expected.dump()));
       const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
-      if (at + 3 * size > count) throw Error(fmt::format("the restart point '{}' is too short", file.string()));
+      if (at + 3 * size > count)
+        throw Error(fmt::format("the restart point '{}' is too short", file.string()));
       std::vector<double>* levels[3] = {&block.now.value, &block.now.rate, &block.now.second_rate};
       for (int l = 0; l < 3; ++l, at += size)
         for (int n = 0; n < block.space->nodes(); ++n)
-          std::copy_n(payload + at + static_cast<std::size_t>(block.space->global_node(n)) * block.size, block.size,
-                      levels[l]->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
+          std::copy_n(payload + at + static_cast<std::size_t>(block.space->global_node(n)) * block.size,
+                      block.size, levels[l]->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
       block.old = block.now;
     }
   RunState state;
@@ -167,7 +177,8 @@ std::filesystem::path latest_restart(const std::filesystem::path& folder) {
 
 void prune_restarts(const std::filesystem::path& folder, long keep) {
   const auto files = restart_files(folder);
-  for (std::size_t k = 0; k + static_cast<std::size_t>(keep) < files.size(); ++k) std::filesystem::remove(files[k]);
+  for (std::size_t k = 0; k + static_cast<std::size_t>(keep) < files.size(); ++k)
+    std::filesystem::remove(files[k]);
 }
 
 }  // namespace seam

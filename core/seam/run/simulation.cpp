@@ -19,7 +19,8 @@ std::map<std::string, std::shared_ptr<const MeshData>> load_meshes(const Scene& 
   return meshes;
 }
 
-std::map<std::string, MeshNames> mesh_names(const std::map<std::string, std::shared_ptr<const MeshData>>& meshes) {
+std::map<std::string, MeshNames> mesh_names(
+    const std::map<std::string, std::shared_ptr<const MeshData>>& meshes) {
   std::map<std::string, MeshNames> names;
   for (const auto& [name, mesh] : meshes) {
     for (const auto& entry : mesh->boundaries) names[name].boundaries.insert(entry.first);
@@ -40,8 +41,8 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   const Parameters& newton = solver.object("newton");
   newton_ = std::make_unique<Newton>(
       problem_, *linear_,
-      NewtonOptions{newton.number("tolerance"), static_cast<int>(newton.integer("maximum_iterations")),
-                    newton.boolean("damping")});
+      NewtonOptions{newton.number("tolerance"), newton.number("increment_tolerance"),
+                    static_cast<int>(newton.integer("maximum_iterations")), newton.boolean("damping")});
   for (const auto& [name, parameters] : scene.root.object("output").map("probes"))
     probes_.emplace_back(name, parameters, problem_);
   timings_.setup = watch.seconds();
@@ -55,7 +56,8 @@ void Simulation::read_time() {
   time_.start = p.number("start");
   time_.end = p.number("end");
   if (time_.end <= time_.start)
-    throw Error(p.where("end"), fmt::format("the end {} does not come after the start {}", time_.end, time_.start));
+    throw Error(p.where("end"),
+                fmt::format("the end {} does not come after the start {}", time_.end, time_.start));
   time_.initial = time_.maximum = time_.end - time_.start;
   if (p.has("step")) {
     const Parameters& step = p.object("step");
@@ -120,7 +122,8 @@ void Simulation::start(const RunOptions& options) {
     state_.time = time_.start;
     state_.step = time_.initial;
     problem_.initialise(time_.start);
-    if (!time_.is_static && problem_.needs_initial_rates(time_.theta)) newton_->solve_initial_rates(time_.start);
+    if (!time_.is_static && problem_.needs_initial_rates(time_.theta))
+      newton_->solve_initial_rates(time_.start);
   }
   if (scene_.root.object("output").boolean("fields"))
     fields_ = std::make_unique<FieldOutput>(problem_, folder_, resumed ? state_.time : -1.0);
@@ -152,8 +155,8 @@ const Results& Simulation::run(const RunOptions& options) {
     ++rejected_steps_;
     step = tried / 2;
     if (step < time_.minimum)
-      throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", state_.time, tried,
-                              reports_.back().reason));
+      throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", state_.time,
+                              tried, reports_.back().reason));
   }
   if (state_.time >= time_.end - 1e-10 * span) finish_errors();
   finish_timings();
@@ -177,7 +180,8 @@ void Simulation::record_failure(const std::string& reason) {
 /// One step; leaves everything as it was when it fails.
 bool Simulation::try_step(double step) {
   const Problem::Snapshot before = problem_.snapshot();
-  const double until = std::abs(state_.time + step - time_.end) < 1e-10 * step ? time_.end : state_.time + step;
+  const double until =
+      std::abs(state_.time + step - time_.end) < 1e-10 * step ? time_.end : state_.time + step;
   const TimePoint at = time_point(until, time_.is_static ? 0 : step, time_.theta);
   problem_.begin_step(at);
   try {
@@ -258,23 +262,25 @@ void Simulation::save_restart() {
   const Stopwatch watch;
   const std::filesystem::path folder = folder_ / "restart";
   write_restart(folder / fmt::format("{:08}.restart", state_.step_number), problem_, state_, scene_.text);
-  if (communicator_.rank() == 0) 
+  if (communicator_.rank() == 0)
     prune_restarts(folder, scene_.root.object("output").object("restart").integer("keep"));
   timings_.output += watch.seconds();
 }
 
 void Simulation::finish_errors() {
   for (const auto& [name, p] : scene_.root.object("output").map("errors")) {
-    const ErrorNorms norms = error_norms(problem_.field(p.text("field")), p.text("unknown"), p.vector_expression("exact"),
-                                         p.has("gradient") ? p.vector_expression("gradient") : std::vector<Expression>{},
-                                         state_.time);
+    const ErrorNorms norms = error_norms(
+        problem_.field(p.text("field")), p.text("unknown"), p.vector_expression("exact"),
+        p.has("gradient") ? p.vector_expression("gradient") : std::vector<Expression>{}, state_.time);
     state_.results.once[name + ".l2"] = norms.l2;
     if (norms.h1) state_.results.once[name + ".h1"] = *norms.h1;
   }
   std::vector<double> iterations;
-  for (const NewtonReport& report : reports_) iterations.push_back(static_cast<double>(report.history.size()) - 1);
+  for (const NewtonReport& report : reports_)
+    iterations.push_back(static_cast<double>(report.history.size()) - 1);
   std::sort(iterations.begin(), iterations.end());
-  state_.results.once["newton.iterations.median"] = iterations.empty() ? 0 : iterations[iterations.size() / 2];
+  state_.results.once["newton.iterations.median"] =
+      iterations.empty() ? 0 : iterations[iterations.size() / 2];
   state_.results.once["newton.iterations.most"] = iterations.empty() ? 0 : iterations.back();
   state_.results.once["unknowns"] = static_cast<double>(unknowns());
 }
@@ -284,7 +290,8 @@ long long Simulation::unknowns() { return problem_.assembler().matrix().global_r
 void Simulation::show_progress(const RunOptions& options, double seconds) const {
   if (options.quiet || communicator_.rank() != 0) return;
   const double done = (state_.time - time_.start) / (time_.end - time_.start);
-  print_progress({state_.step_number, state_.time, static_cast<int>(reports_.back().history.size()) - 1, done, seconds});
+  print_progress(
+      {state_.step_number, state_.time, static_cast<int>(reports_.back().history.size()) - 1, done, seconds});
 }
 
 }  // namespace seam

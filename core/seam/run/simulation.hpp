@@ -20,10 +20,10 @@
 namespace seam {
 
 struct RunOptions {
-  std::filesystem::path folder;      ///< for results; created
-  bool resume = false;               ///< continue from the newest restart point in the folder, if there is one
-  bool quiet = false;                ///< no progress line
-  std::optional<long> stop_after;    ///< steps to take in this run, for tests of the restart
+  std::filesystem::path folder;    ///< for results; created
+  bool resume = false;             ///< continue from the newest restart point in the folder, if there is one
+  bool quiet = false;              ///< no progress line
+  std::optional<long> stop_after;  ///< steps to take in this run, for tests of the restart
 };
 
 /// Where the time of a run went, s.
@@ -38,11 +38,12 @@ class Simulation {
   /// @throws Error with places in the scene
   Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator);
 
-  /// Runs to the end. Collective. @throws Error when a step fails for good; then the state is that before the step
+  /// Runs to the end. Collective. @throws Error when a step fails for good; then the state is that before the
+  /// step
   const Results& run(const RunOptions& options);
 
-  /// After run() threw on all ranks: puts the last good state on disk, its fields and a restart point, whatever the
-  /// scene says about intervals, and keeps the reason for summary(). Collective.
+  /// After run() threw on all ranks: puts the last good state on disk, its fields and a restart point,
+  /// whatever the scene says about intervals, and keeps the reason for summary(). Collective.
   void record_failure(const std::string& reason);
 
   [[nodiscard]] Problem& problem() { return problem_; }
@@ -91,9 +92,9 @@ class Simulation {
   std::vector<NewtonReport> reports_;
   Stopwatch run_watch_;
   Timings timings_;
-  TimePoint last_point_;            ///< of the last good state
-  long last_fields_ = -1;           ///< step number of the fields written last
-  std::string failure_;             ///< why the run ended early, "" if it did not
+  TimePoint last_point_;   ///< of the last good state
+  long last_fields_ = -1;  ///< step number of the fields written last
+  std::string failure_;    ///< why the run ended early, "" if it did not
   double last_time_error_ = 0;
   long rejected_steps_ = 0;
 };
@@ -101,6 +102,7 @@ class Simulation {
 /// Reads and distributes the meshes a scene names. Exposed for `seam check`.
 std::map<std::string, std::shared_ptr<const MeshData>> load_meshes(const Scene& scene);
 /// The names they carry, for check_mesh_names.
-std::map<std::string, MeshNames> mesh_names(const std::map<std::string, std::shared_ptr<const MeshData>>& meshes);
+std::map<std::string, MeshNames> mesh_names(
+    const std::map<std::string, std::shared_ptr<const MeshData>>& meshes);
 
 }  // namespace seam

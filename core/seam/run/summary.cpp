@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <Trilinos_version.h>
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/utsname.h>
 
-#include <Trilinos_version.h>
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "seam/base/checksum.hpp"
@@ -38,8 +38,11 @@ nlohmann::json histories(const std::vector<NewtonReport>& reports) {
   for (const NewtonReport& report : reports) {
     auto steps = nlohmann::json::array();
     for (const NewtonIteration& i : report.history)
-      steps.push_back({{"residual", i.residual}, {"worst", i.worst}, {"damping", i.damping},
-                       {"linear_iterations", i.linear_iterations}, {"linear_residual", i.linear_residual},
+      steps.push_back({{"residual", i.residual},
+                       {"worst", i.worst},
+                       {"increment", i.increment}, {"damping", i.damping},
+                       {"linear_iterations", i.linear_iterations},
+                       {"linear_residual", i.linear_residual},
                        {"space_changed", i.space_changed}});
     all.push_back({{"converged", report.converged}, {"reason", report.reason}, {"iterations", steps}});
   }
@@ -66,16 +69,21 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["unknowns"] = unknowns();
   s["steps"] = state_.step_number;
   s["rejected_steps"] = rejected_steps_;
-  s["seconds"] = {{"setup", timings_.setup}, {"pattern", timings_.pattern}, {"assembly", timings_.assembly},
-                  {"linear", timings_.linear}, {"output", timings_.output}, {"total", timings_.total}};
+  s["seconds"] = {{"setup", timings_.setup},   {"pattern", timings_.pattern}, {"assembly", timings_.assembly},
+                  {"linear", timings_.linear}, {"output", timings_.output},   {"total", timings_.total}};
   s["peak_memory_bytes"] = communicator_.sum(peak_memory());
   s["newton"] = histories(reports_);
   s["results"] = nlohmann::json::object();
-  for (const std::string& name : state_.results.names()) s["results"][name] = state_.results.value(name, time_.end);
+  for (const std::string& name : state_.results.names())
+    s["results"][name] = state_.results.value(name, time_.end);
   s["checks"] = nlohmann::json::array();
   for (const CheckResult& c : checks) {
-    s["checks"].push_back({{"that", c.that}, {"value", c.value}, {"expected", c.expected}, {"deviation", c.deviation},
-                           {"passed", c.passed}, {"source", c.source}});
+    s["checks"].push_back({{"that", c.that},
+                           {"value", c.value},
+                           {"expected", c.expected},
+                           {"deviation", c.deviation},
+                           {"passed", c.passed},
+                           {"source", c.source}});
     if (c.is) s["checks"].back()["is"] = *c.is;
   }
   return s;

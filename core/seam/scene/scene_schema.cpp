@@ -45,10 +45,9 @@ Schema solver_schema() {
       .above(0)
       .below(1)
       .otherwise("1e-8");
-  newton.number("increment_tolerance", "of the last update, relative to the solution; default: not asked for")
+  newton.number("increment_tolerance", "of the last update, relative to the change in the step")
       .above(0)
-      .below(1)
-      .optional();
+      .otherwise("1e-5");
   newton.integer("maximum_iterations", "a step that needs more has failed")
       .at_least(1)
       .at_most(1000)
@@ -128,12 +127,18 @@ Schema study_schema() {
 
   Schema schema("Runs of this scene over ranges of values, compared with each other by `seam study`.");
   schema.value_map("vary", "key paths (a parameter's name alone will do) with the values each takes", values);
-  schema.names("together", "keys of `vary` that change together, all with as many values; the others form all combinations")
+  schema
+      .names("together",
+             "keys of `vary` that change together, all with as many values; the others form all combinations")
       .otherwise("[]");
-  schema.text("leave_out", "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
+  schema
+      .text("leave_out",
+            "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
       .optional();
-  schema.names("measure", "numbers of each run: probes, error norms, unknowns, seconds.total, peak_memory_bytes, or "
-                          "error(NAME): relative deviation of NAME from what the check of that name expects");
+  schema.names("measure",
+               "numbers of each run: probes, error norms, unknowns, seconds.total, peak_memory_bytes, or "
+               "error(NAME): relative deviation of NAME from what the check of that name expects, or "
+               "error(NAME, REFERENCE)");
   schema.text("against", "key of `vary` on the horizontal axis; default the last one").optional();
   return schema;
 }

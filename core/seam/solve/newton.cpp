@@ -9,30 +9,40 @@
 #include "seam/base/stopwatch.hpp"
 
 namespace seam {
+namespace {
 
-/// Largest residual of an unknown relative to what its equations are made of.
-Newton::Size Newton::measure() const {
-  Size size{0, ""};
+constexpr double rounding = 1e-13;  ///< relative residual that cannot be lowered
+
+}  // namespace
+
+/// Sizes of the residual and of the last increment, each for the unknown where it is largest.
+Newton::Size Newton::measure(const std::vector<double>& increment, double factor) const {
+  Size size;
   Assembler& assembler = problem_.assembler();
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
       const Field::Place place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
-      double residual = 0, magnitude = 0;
+      std::vector<double> sums(4, 0.0);  // squares of residual, magnitude, increment, change in the step
       for (int node = 0; node < block.space->owned_nodes(); ++node) {
         const int row = assembler.row(*entry.field, place.block, node, place.offset);
         if (row < 0) continue;
         for (int c = 0; c < place.components; ++c) {
-          residual += std::pow(assembler.residual()[row + c], 2);
-          magnitude += std::pow(assembler.magnitude()[row + c], 2);
+          const std::size_t i = static_cast<std::size_t>(node) * block.size + place.offset + c;
+          sums[0] += std::pow(assembler.residual()[row + c], 2);
+          sums[1] += std::pow(assembler.magnitude()[row + c], 2);
+          if (!increment.empty()) sums[2] += std::pow(factor * increment[row + c], 2);
+          sums[3] += std::pow(block.now.value[i] - block.old.value[i], 2);
         }
       }
-      std::vector<double> sums{residual, magnitude};
       problem_.communicator().sum(sums);
-      if (!std::isfinite(sums[0])) return {sums[0], entry.name + "." + unknown.name};
+      const std::string name = entry.name + "." + unknown.name;
+      if (!std::isfinite(sums[0])) return {sums[0], name, size.increment};
       // Without any contribution the unknown's equations hold.
       const double relative = sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
-      if (relative > size.residual) size = {relative, entry.name + "." + unknown.name};
+      if (size.worst.empty() || relative > size.residual) size = {relative, name, size.increment};
+      // At the rounding error of its equations an unknown's increments are noise.
+      if (relative > rounding && sums[3] > 0) size.increment = std::max(size.increment, std::sqrt(sums[2] / sums[3]));
     }
   return size;
 }
@@ -40,12 +50,12 @@ Newton::Size Newton::measure() const {
 NewtonReport Newton::solve(const TimePoint& at) {
   NewtonReport report;
   std::vector<double> increment;
-  double last = 0;
+  Size size;
   for (int iteration = 0;; ++iteration) {
     NewtonIteration& entry = report.history.emplace_back();
     double factor = 1;
     if (iteration > 0) {
-      if (!take(at, increment, last, factor)) {
+      if (!take(at, increment, size, factor)) {
         report.reason = fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
         return report;
       }
@@ -53,15 +63,16 @@ NewtonReport Newton::solve(const TimePoint& at) {
     entry.damping = factor;
     entry.space_changed = problem_.update_spaces();
     if (iteration == 0 || entry.space_changed) problem_.assembler().assemble(at, true);
-    const Size size = measure();
+    size = measure(increment, factor);
     entry.residual = size.residual;
     entry.worst = size.worst;
-    last = size.residual;
+    entry.increment = size.increment;
     if (!std::isfinite(size.residual)) {
       report.reason = fmt::format("the residual of {} is not finite at the start of the step", size.worst);
       return report;
     }
-    if (size.residual <= options_.tolerance && !entry.space_changed && !problem_.assembler().prescribed_pending()) {
+    const bool settled = size.residual <= rounding || size.increment <= options_.increment_tolerance;
+    if (size.residual <= options_.tolerance && settled && !entry.space_changed && !problem_.assembler().prescribed_pending()) {
       report.converged = true;
       return report;
     }
@@ -79,16 +90,16 @@ NewtonReport Newton::solve(const TimePoint& at) {
 }
 
 /// Adds the increment, or a part of it, and assembles there. False when no part is admissible.
-bool Newton::take(const TimePoint& at, const std::vector<double>& increment, double& residual, double& factor) {
+bool Newton::take(const TimePoint& at, const std::vector<double>& increment, const Size& size_before, double& factor) {
   constexpr double blow_up = 1e4;
   const Problem::Snapshot before = problem_.snapshot();
   for (factor = 1; factor > 1e-3; factor /= 2) {
     problem_.assembler().add_increment(increment, factor);
     problem_.update_rates(at);
     problem_.assembler().assemble(at, true);
-    const double size = measure().residual;
-    const bool much_larger = size > blow_up * residual && size > 1e-3;
-    if (std::isfinite(size) && !(options_.damping && much_larger && residual > 0 && factor > 0.1)) return true;
+    const double size = measure({}, 0).residual;
+    const bool much_larger = size_before.residual > 0 && size > blow_up * size_before.residual && size > 1e-3;
+    if (std::isfinite(size) && !(options_.damping && much_larger && factor > 0.1)) return true;
     if (!options_.damping) return false;
     problem_.restore(before);
   }

@@ -11,7 +11,11 @@
 namespace seam {
 
 struct NewtonOptions {
-  double tolerance = 1e-8;      ///< on each unknown's residual, relative to the sum of its absolute contributions
+  /// On each unknown's residual, relative to Assembler::magnitude.
+  double tolerance = 1e-8;
+  /// On each unknown's last increment, relative to its change in the step. A slender body bends with forces that
+  /// are small beside those it would stretch with: there the residual alone says little.
+  double increment_tolerance = 1e-5;
   int maximum_iterations = 25;
   bool damping = true;          ///< shorten steps that lead to an inadmissible state or a much larger residual
 };
@@ -20,6 +24,7 @@ struct NewtonOptions {
 struct NewtonIteration {
   double residual = 0;    ///< largest of the unknowns' relative residuals
   std::string worst;      ///< "field.unknown" it belongs to
+  double increment = 0;   ///< largest of the unknowns' relative increments that led here
   double damping = 1;     ///< part of the increment that was taken to get here
   int linear_iterations = 0;
   double linear_residual = 0;
@@ -47,11 +52,13 @@ class Newton {
 
  private:
   struct Size {
-    double residual;
+    double residual = 0;
     std::string worst;
+    double increment = 0;
   };
-  [[nodiscard]] Size measure() const;
-  bool take(const TimePoint& at, const std::vector<double>& increment, double& residual, double& factor);
+  /// @param increment what was added last, times `factor`; empty at the start of a step
+  [[nodiscard]] Size measure(const std::vector<double>& increment, double factor) const;
+  bool take(const TimePoint& at, const std::vector<double>& increment, const Size& before, double& factor);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
   Problem& problem_;
   LinearSolver& solver_;

@@ -1,0 +1,45 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs Seam into a folder of its own, builds the plugin template against that installation only, and runs its tests
+# (its scenes, and the conformance kit).
+# Usage: out_of_tree.sh <source folder> <build folder>
+set -eu
+source=$1
+build=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() {
+  echo "out_of_tree: $1" >&2
+  exit 1
+}
+
+cmake --install "$build" --prefix "$work/seam" >/dev/null
+# A copy, so that nothing is found by its place in the source tree.
+cp -r "$source/tools/template" "$work/template"
+launcher=
+if command -v ccache >/dev/null; then launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
+cmake -S "$work/template" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/seam" $launcher \
+  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wshadow -Werror"
+cmake --build "$work/build"
+
+# Headers that the plugin was built with: installed ones, and none of the solver stack.
+ninja -C "$work/build" -t deps >"$work/headers"
+grep -q "$work/seam/include/seam/term/kernel_term.hpp" "$work/headers" || fail "the installed headers were not used"
+if grep -q "$source/core" "$work/headers"; then fail "headers of the source tree were used"; fi
+if grep -iE "trilinos|Tpetra|Teuchos|Kokkos|vtk" "$work/headers"; then fail "a plugin must not need these headers"; fi
+
+# The material, the volume term and the CMake calls that make a plugin of them.
+lines=$(cat "$work/template/mooney_rivlin.cpp" "$work/template/heat.cpp" | wc -l)
+cmake_lines=$(sed -n '/^cmake_minimum/p;/^project/p;/^find_package/p;/^seam_add_plugin/,/)$/p' \
+  "$work/template/CMakeLists.txt" | wc -l)
+echo "material and volume term: $lines lines, CMake: $cmake_lines lines"
+[ $((lines + cmake_lines)) -lt 100 ] || fail "material, volume term and CMake take 100 lines or more"
+
+ctest --test-dir "$work/build" --output-on-failure
+
+# Installed, the plugin is found without any variable.
+cmake --install "$work/build" --prefix "$work/seam" >/dev/null
+cd "$work"
+env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" verify "$work"/template/conformance/*.yaml --quiet
+env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" plugin test "$work"/seam/lib*/seam/plugins/libseam_example.so --ranks 1
