@@ -28,6 +28,18 @@ struct Result {
   }
 };
 
+Result run_kit(const std::string& arguments) {
+  Result result;
+  FILE* pipe = popen((SEAM_COMMAND " plugin test " + arguments + " 2>&1").c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::array<char, 4096> buffer{};
+  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    result.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
+  return result;
+}
+
 /// Runs the kit on the wrong plugin, with one of its materials in the scene.
 Result test_material(const std::string& material, const std::string& options) {
   std::ifstream in(SEAM_WRONG_SCENE);
@@ -37,17 +49,7 @@ Result test_material(const std::string& material, const std::string& options) {
   const auto scene = std::filesystem::temp_directory_path() /
                      ("seam_wrong_" + std::to_string(std::random_device{}()) + ".yaml");
   std::ofstream(scene) << text;
-
-  const std::string command =
-      SEAM_COMMAND " plugin test " SEAM_WRONG_PLUGIN " --scene " + scene.string() + " " + options + " 2>&1";
-  Result result;
-  FILE* pipe = popen(command.c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    result.output.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
+  const Result result = run_kit(SEAM_WRONG_PLUGIN " --scene " + scene.string() + " " + options);
   std::filesystem::remove(scene);
   INFO(result.output);
   CHECK(result.code == 1);
@@ -101,4 +103,16 @@ TEST_CASE("a result that depends on the number of ranks is found") {
   const Result result = test_material("counts", "--ranks 1,2");
   INFO(result.output);
   CHECK(result.outcome("the same on 1, 2 ranks") == "FAIL");
+}
+
+TEST_CASE("a plugin that does not register what it declares, or is none, fails before any scene runs") {
+  const Result unpromised = run_kit(SEAM_BAD_PLUGINS "/libseam_unpromised.so");
+  INFO(unpromised.output);
+  CHECK(unpromised.code == 1);
+  CHECK(unpromised.outcome("descriptor") == "ok");
+  CHECK(unpromised.outcome("registration") == "FAIL");
+  const Result other_abi = run_kit(SEAM_BAD_PLUGINS "/libseam_other_abi.so");
+  CHECK(other_abi.code == 1);
+  CHECK(other_abi.outcome("descriptor") == "FAIL");
+  CHECK(run_kit("/nowhere/libseam_none.so").code == 2);
 }

@@ -77,7 +77,9 @@ ConformanceCheck check_rewind(const Scene& scene, const Registry& registry, Prob
   const auto linear =
       registry.create<LinearSolver>("linear_solver", scene.root.object("solver").object("linear"));
   NewtonOptions options;
-  options.tolerance = scene.root.object("solver").object("newton").number("tolerance");
+  const Parameters& newton = scene.root.object("solver").object("newton");
+  options.tolerance = newton.number("tolerance");
+  options.increment_tolerance = newton.number("increment_tolerance");
   const auto take = [&](double part, int iterations) {
     options.maximum_iterations = iterations;
     const TimePoint at = stepping.after(time, part);

@@ -170,9 +170,19 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   return state;
 }
 
-std::filesystem::path latest_restart(const std::filesystem::path& folder) {
-  const auto files = restart_files(folder);
-  return files.empty() ? std::filesystem::path() : files.back();
+std::filesystem::path latest_restart(const std::filesystem::path& folder, std::vector<std::string>& warnings) {
+  auto files = restart_files(folder);
+  for (; !files.empty(); files.pop_back()) {
+    try {
+      const double* payload = nullptr;
+      std::size_t count = 0;
+      parse(files.back(), read_all(files.back()), payload, count);
+      return files.back();
+    } catch (const Error& error) {
+      warnings.emplace_back(error.what());
+    }
+  }
+  return {};
 }
 
 void prune_restarts(const std::filesystem::path& folder, long keep) {

@@ -27,8 +27,9 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
 /// @throws Error when the file is damaged or belongs to other fields
 RunState read_restart(const std::filesystem::path& file, Problem& problem);
 
-/// The newest complete restart point of a folder, "" if there is none.
-std::filesystem::path latest_restart(const std::filesystem::path& folder);
+/// The newest undamaged restart point of a folder, "" if there is none.
+/// @param warnings gets a line for every damaged one that was passed over
+std::filesystem::path latest_restart(const std::filesystem::path& folder, std::vector<std::string>& warnings);
 
 /// Deletes all but the newest `keep` restart points of a folder.
 void prune_restarts(const std::filesystem::path& folder, long keep);

@@ -114,14 +114,17 @@ void Simulation::build_couplings(const Registry& registry) {
 
 void Simulation::start(const RunOptions& options) {
   folder_ = options.folder;
-  const std::filesystem::path point = options.resume ? latest_restart(folder_ / "restart") : "";
+  std::vector<std::string> damaged;
+  const std::filesystem::path point = options.resume ? latest_restart(folder_ / "restart", damaged) : "";
+  for (const std::string& warning : damaged)
+    if (communicator_.rank() == 0) fmt::print(stderr, "warning: {}; an older one is used\n", warning);
   const bool resumed = !point.empty();
   if (resumed) {
     state_ = read_restart(point, problem_);
   } else {
     state_.time = time_.start;
     state_.step = time_.initial;
-    problem_.initialise(time_.start);
+    problem_.initialise(time_.start, !time_.is_static);
     if (!time_.is_static && problem_.needs_initial_rates(time_.theta))
       newton_->solve_initial_rates(time_.start);
   }

@@ -78,7 +78,7 @@ bool Problem::has_rates() const {
   return false;
 }
 
-void Problem::initialise(double time) {
+void Problem::initialise(double time, bool impose_prescribed) {
   for (FieldEntry& entry : fields_) {
     const int dim = entry.mesh->dimension();
     for (const auto& initial : entry.initial) {
@@ -93,7 +93,7 @@ void Problem::initialise(double time) {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       for (std::size_t i = 0; i < block.prescribed.size(); ++i)
-        if (block.prescribed[i]) block.now.value[i] = block.prescribed_value[i];
+        if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
       block.old = block.now;
     }
 }

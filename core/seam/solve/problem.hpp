@@ -84,7 +84,9 @@ class Problem {
   [[nodiscard]] bool has_rates() const;
 
   /// Sets the initial values and rates.
-  void initialise(double time);
+  /// @param impose_prescribed let prescribed unknowns start at their value. Without it, as in a static problem, they
+  /// go there in the first step and take the interior along, so that a sudden displacement crushes no cell.
+  void initialise(double time, bool impose_prescribed = true);
   /// True when the scheme needs rates at the start that the scene does not give.
   [[nodiscard]] bool needs_initial_rates(double theta) const { return theta < 1 && has_rates(); }
   /// Adds an increment of the highest rates (of the value, where an unknown has none): the solution of the

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run that was interrupted, in any way, continues as if it had not been.
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+#include <thread>
+
+#include "cli/run_command.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+const std::string scene = SEAM_SOURCE_DIR "/configs/solid/swinging_beam.yaml --set output.fields=false";
+
+std::string run(const Folder& folder, const std::string& where, const std::string& more = "") {
+  return "run " + scene + " --quiet --no-picture --folder " + (folder.path / where).string() + " " + more;
+}
+
+std::vector<std::vector<double>> table(const std::string& csv) {
+  std::istringstream in(csv);
+  std::vector<std::vector<double>> rows;
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    std::istringstream cells(line);
+    std::string cell;
+    rows.emplace_back();
+    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
+  }
+  return rows;
+}
+
+/// Largest difference between two series, each column relative to its largest value.
+double difference(const std::string& first, const std::string& second) {
+  const auto a = table(first), b = table(second);
+  REQUIRE(a.size() == b.size());
+  REQUIRE(a.size() > 1);
+  double worst = 0;
+  for (std::size_t column = 0; column < a[0].size(); ++column) {
+    double size = 0, most = 0;
+    for (std::size_t row = 0; row < a.size(); ++row) {
+      size = std::max(size, std::abs(a[row][column]));
+      most = std::max(most, std::abs(a[row][column] - b[row][column]));
+    }
+    if (size > 0) worst = std::max(worst, most / size);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("a restarted run equals the uninterrupted one to the bit, on one rank") {
+  const Folder folder;
+  REQUIRE(seam(run(folder, "whole")).code == 0);
+  REQUIRE(seam(run(folder, "parts", "--stop-after 12")).code == 0);
+  REQUIRE(seam(run(folder, "parts", "--resume --stop-after 13")).code == 0);
+  REQUIRE(seam(run(folder, "parts", "--resume")).code == 0);
+  CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
+}
+
+TEST_CASE("a run continues on other numbers of ranks") {
+  const Folder folder;
+  REQUIRE(seam(run(folder, "whole")).code == 0);
+  REQUIRE(seam(run(folder, "parts", "--stop-after 10"), "mpirun --oversubscribe -np 2").code == 0);
+  REQUIRE(seam(run(folder, "parts", "--resume --stop-after 15"), "mpirun --oversubscribe -np 3").code == 0);
+  REQUIRE(seam(run(folder, "parts", "--resume")).code == 0);
+  CHECK(difference(folder.read("parts/series.csv"), folder.read("whole/series.csv")) < 1e-8);
+}
+
+TEST_CASE("a run that is killed at any moment loses nothing but the last point") {
+  const Folder folder;
+  // A restart point at every step, so that many a kill strikes while one is written.
+  const std::string often = " --set output.restart.every=1 ";
+  REQUIRE(seam(run(folder, "whole", often)).code == 0);
+  for (int attempt = 1; attempt <= 12; ++attempt) {
+    const Result result = seam(run(folder, "killed", often + "--resume"), "timeout -s KILL 0." + std::to_string(attempt % 4 + 2));
+    if (result.code == 0) break;
+  }
+  REQUIRE(seam(run(folder, "killed", often + "--resume")).code == 0);
+  CHECK(folder.read("killed/series.csv") == folder.read("whole/series.csv"));
+}
+
+TEST_CASE("a damaged restart point is passed over") {
+  const Folder folder;
+  REQUIRE(seam(run(folder, "whole")).code == 0);
+  REQUIRE(seam(run(folder, "parts", "--stop-after 22")).code == 0);
+  const std::filesystem::path newest = folder.path / "parts/restart/00000020.restart";
+  REQUIRE(std::filesystem::exists(newest));
+  std::filesystem::resize_file(newest, std::filesystem::file_size(newest) / 2);
+  const Result result = seam(run(folder, "parts", "--resume"));
+  REQUIRE(result.code == 0);
+  CHECK_THAT(result.output, Catch::Contains("00000020.restart") && Catch::Contains("damaged"));
+  CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
+}
