@@ -43,3 +43,11 @@ TEST_CASE("a block with the iterative solver, on one rank and several") {
   passes("block", size, "mpirun --oversubscribe -np 3");
   passes("block", size + " --set solver.linear.preconditioner=ilu");
 }
+
+TEST_CASE("a follower pressure makes a uniform stress") { passes("pressure"); }
+
+TEST_CASE("rigid bodies move as Newton and Euler say") {
+  passes("oscillator");
+  passes("oscillator", "", "mpirun --oversubscribe -np 3");
+  passes("spinning_block");
+}
