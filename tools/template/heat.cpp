@@ -1,31 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin.hpp"
 #include "seam/physics/physics.hpp"
+#include "seam/plugin/registry.hpp"
 #include "seam/term/kernel_term.hpp"
 
 using namespace seam;
 using Temperature = Scalar<0>;
 
-/// (dT, capacity dT/dt) + (grad dT, conductivity grad T)
+/// (dT, capacity dT/dt - source) + (grad dT, conductivity grad T)
 struct HeatConduction {
   using Reads = Slots<Rate<Temperature>, Gradient<Temperature>>;
   using Tests = Slots<Value<Temperature>, Gradient<Temperature>>;
   double conductivity, capacity;
-  template <int dim, class T>
-  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    r.value(Temperature{}) += capacity * s.rate(Temperature{});
-    r.gradient(Temperature{}) += conductivity * s.gradient(Temperature{});
-  }
-};
-
-/// -(dT, source)
-struct HeatSource {
-  using Reads = Slots<>;
-  using Tests = Slots<Value<Temperature>>;
   Expression source;
   template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
-    r.value(Temperature{}) -= source(x.position.c.data(), dim, x.time);
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(Temperature{}) += capacity * s.rate(Temperature{}) - source(x.position.c.data(), dim, x.time);
+    r.gradient(Temperature{}) += conductivity * s.gradient(Temperature{});
   }
 };
 
@@ -36,9 +26,9 @@ struct Heat final : Physics {
     return {{"temperature", 1, static_cast<int>(parameters.integer("order")), time_order, "K"}};
   }
   void build(FieldSetup& setup) const override {
-    const HeatConduction conduction{parameters.number("conductivity"), parameters.number("capacity")};
-    setup.add_cell_term(make_term(conduction), {"temperature"});
-    setup.add_cell_term(make_term(HeatSource{parameters.expression("source")}, 1), {"temperature"});
+    const HeatConduction conduction{parameters.number("conductivity"), parameters.number("capacity"),
+                                    parameters.expression("source")};
+    setup.add_cell_term(make_term(conduction, 1), {"temperature"});
     for (const Parameters& c : parameters.list("boundary"))
       for (const std::string& name : c.names("on"))
         setup.prescribe(name, "temperature", 0, c.expression("temperature"), c.where("temperature"));
@@ -46,7 +36,7 @@ struct Heat final : Physics {
   Parameters parameters;
 };
 
-void example::declare_heat(Registry& registry) {
+void declare_heat(Registry& registry) {
   Schema boundary("A given temperature; elsewhere no heat passes the boundary.");
   boundary.names("on", "Boundaries of the mesh").naming("boundary");
   boundary.expression("temperature", "Its value").unit("K");

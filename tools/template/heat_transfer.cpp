@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin.hpp"
 #include "seam/interface/interface.hpp"
+#include "seam/plugin/registry.hpp"
 #include "seam/term/kernel_term.hpp"
 
-namespace example {
 namespace {
 
 /// Heat that passes a thin gap: q = transfer (T0 - T1), out of side 0 and into side 1. <dT0 - dT1, q>
@@ -47,5 +46,3 @@ void declare_heat_transfer(seam::Registry& registry) {
                                  return std::make_unique<HeatTransferCoupling>(p.number("transfer"));
                                });
 }
-
-}  // namespace example

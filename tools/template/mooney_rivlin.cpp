@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "plugin.hpp"
 #include "seam/physics/potential.hpp"
+#include "seam/plugin/registry.hpp"
 
 using namespace seam;
 
@@ -16,7 +16,7 @@ struct MooneyRivlin {
   }
 };
 
-void example::declare_mooney_rivlin(Registry& registry) {
+void declare_mooney_rivlin(Registry& registry) {
   Schema s("Mooney-Rivlin solid: rubber up to moderate stretch.");
   s.number("c1", "Weight of the first invariant; c1 + c2 is half the shear modulus").unit("Pa").above(0);
   s.number("c2", "Weight of the second invariant").unit("Pa").otherwise("0").at_least(0);
