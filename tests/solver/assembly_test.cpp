@@ -80,19 +80,6 @@ TEST_CASE("interior face terms couple neighbours of neighbours and see no jump o
   }
 }
 
-TEST_CASE("Newton's method is quadratic", "[ranks]") {
-  auto problem = test::diffusion_problem(CellType::quadrilateral, 8, {10.0, 0.0, 0.0, true, 1, "1"});
-  problem->finish();
-  problem->initialise(0);
-  const NewtonReport report = test::solve_static(*problem);
-  REQUIRE(report.converged);
-  const auto& h = report.history;
-  REQUIRE(h.size() >= 4);
-  // Once in the basin, each residual is below a constant times the square of the one before.
-  for (std::size_t k = h.size() - 2; k + 1 < h.size(); ++k)
-    CHECK(h[k + 1].residual < 10 * h[k].residual * h[k].residual + 1e-14);
-}
-
 TEST_CASE("a field that is not held is named", "[ranks]") {
   auto problem = test::diffusion_problem(CellType::quadrilateral, 4, {1.0, 0.0, 0.0, false, 1, "0"});
   problem->finish();

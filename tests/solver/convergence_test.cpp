@@ -2,6 +2,7 @@
 // Manufactured solutions: every cell type and order, static and dynamic.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <tuple>
 
 #include "manufactured.hpp"
 
@@ -91,4 +92,34 @@ TEST_CASE("the mixed form converges with the displacement form's orders, nearly 
   const Orders orders = observed(body, 1, 1, 1);
   CHECK(orders.l2 > 2.9);
   CHECK(orders.h1 > 1.9);
+}
+
+TEST_CASE("Newton's method is quadratic at large deformation", "[ranks]") {
+  Body body;
+  body.cells = 8;
+  body.order = 2;
+  std::tie(body.mixed, body.exact.amplitude) = GENERATE(table<bool, double>({{false, 0.2}, {true, 0.05}}));
+  const auto problem = test::make_problem(body);
+  MumpsSolver solver;
+  Newton newton(*problem, solver, {1e-12, 1e-12, 12, true});
+  problem->initialise(0, false);
+  const TimePoint at = time_point(1, 0, 1);
+  problem->begin_step(at);
+  const auto history = newton.solve(at).history;
+  // Residuals down to the first one at rounding.
+  std::vector<double> residual;
+  std::string shown;
+  for (const NewtonIteration& iteration : history) {
+    residual.push_back(std::log10(iteration.residual));
+    shown += std::to_string(residual.back()) + " ";
+    if (residual.back() < -12) break;
+  }
+  INFO("log10 of the residuals: " << shown);
+  REQUIRE(residual.size() >= 4);
+  REQUIRE(residual.back() < -12);
+  // The last residual may be cut off by rounding, the ones before may not be in the basin yet: of the last two
+  // observed orders the better one counts.
+  const auto order = [&](std::size_t k) { return (residual[k] - residual[k - 1]) / (residual[k - 1] - residual[k - 2]); };
+  const std::size_t last = residual.size() - 1;
+  CHECK(std::max(order(last), order(last - 1)) > 1.9);
 }

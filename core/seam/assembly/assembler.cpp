@@ -14,8 +14,9 @@ Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicato
   matrix_.communicator = communicator;
 }
 
-void Assembler::add(std::shared_ptr<const IntegrationDomain> domain, std::vector<BoundTerm> terms) {
-  Group group{domain, std::make_unique<ElementEvaluator>(*domain, std::move(terms)), {}};
+void Assembler::add(const std::shared_ptr<const IntegrationDomain>& domain,
+                    const std::vector<BoundTerm>& terms) {
+  Group group{domain, std::make_unique<ElementEvaluator>(*domain, terms), {}};
   for (const auto& part : group.evaluator->parts())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       if (blocks_[b].block == part.states) group.block_of_part.push_back(static_cast<int>(b));
@@ -82,7 +83,8 @@ void Assembler::collect_elements(NodeGraph::Elements& elements) const {
       for (std::size_t p = 0; p < parts.size(); ++p) {
         const int* nodes = group.domain->nodes(e, parts[p].side, parts[p].block);
         for (int a = 0; a < parts[p].nodes; ++a)
-          if (const int n = blocks_[group.block_of_part[p]].node_index[nodes[a]]; n >= 0) elements.node.push_back(n);
+          if (const int n = blocks_[group.block_of_part[p]].node_index[nodes[a]]; n >= 0)
+            elements.node.push_back(n);
       }
       elements.start.push_back(elements.node.size());
     }
@@ -146,9 +148,10 @@ void Assembler::scatter_matrix(const ElementEvaluator& element) {
       for (const auto& columns : element.parts())
         for (int b = 0; b < columns.nodes; ++b, ++column_node) {
           if (*column_node < 0) continue;
-          const double* from = &element.matrix()[static_cast<std::size_t>(rows.offset + a) * size + columns.offset + b];
-          const NodeBlock block{from, static_cast<std::ptrdiff_t>(rows.stride) * size, columns.stride, rows.components,
-                                columns.components};
+          const double* from =
+              &element.matrix()[static_cast<std::size_t>(rows.offset + a) * size + columns.offset + b];
+          const NodeBlock block{from, static_cast<std::ptrdiff_t>(rows.stride) * size, columns.stride,
+                                rows.components, columns.components};
           if (node_has_prescribed_[*row_node] || node_has_prescribed_[*column_node])
             add_held_block(*row_node, *column_node, block);
           else
@@ -161,7 +164,8 @@ void Assembler::add_free_block(int row_node, int column_node, const NodeBlock& b
   const NodeGraph::Place at = graph_.place(row_node, column_node);
   double* to = matrix_.value.data + at.first;
   for (int i = 0; i < block.rows; ++i, to += at.row_length)
-    for (int j = 0; j < block.columns; ++j) to[j] += block.from[i * block.row_stride + j * block.column_stride];
+    for (int j = 0; j < block.columns; ++j)
+      to[j] += block.from[i * block.row_stride + j * block.column_stride];
 }
 
 /// Rows of prescribed unknowns are left out; their columns act on the way they have still to go.
@@ -187,7 +191,8 @@ void Assembler::hold_prescribed(bool with_tangent) {
   magnitude_.assign(local_magnitude_.begin(), local_magnitude_.begin() + matrix_.rows);
   residual_ = full_residual_;
   right_side_.resize(matrix_.rows);
-  for (int r = 0; r < matrix_.rows; ++r) right_side_[r] = prescribed_[r] ? 0.0 : -(residual_[r] + local_lift_[r]);
+  for (int r = 0; r < matrix_.rows; ++r)
+    right_side_[r] = prescribed_[r] ? 0.0 : -(residual_[r] + local_lift_[r]);
   for (int r = 0; r < matrix_.rows; ++r) {
     if (!prescribed_[r]) continue;
     residual_[r] = 0;
@@ -202,13 +207,14 @@ void Assembler::add_increment(const std::vector<double>& increment, double facto
     for (int node = 0; node < b.block->space->owned_nodes(); ++node) {
       if (b.node_index[node] < 0) continue;
       const int first = graph_.node(b.node_index[node]).first;
-      for (int c = 0; c < b.block->size; ++c)
-      {
+      for (int c = 0; c < b.block->size; ++c) {
         const std::size_t i = static_cast<std::size_t>(node) * b.block->size + c;
-        const double way = prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i] : increment[first + c];
+        const double way = prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i]
+                                                  : increment[first + c];
         // The last part of the way ends exactly at the value.
-        b.block->now.value[i] = prescribed_[first + c] && factor == 1.0 ? b.block->prescribed_value[i]
-                                                                        : b.block->now.value[i] + factor * way;
+        b.block->now.value[i] = prescribed_[first + c] && factor == 1.0
+                                    ? b.block->prescribed_value[i]
+                                    : b.block->now.value[i] + factor * way;
       }
     }
     b.block->space->halo().update(b.block->now.value, b.block->size);
@@ -222,13 +228,15 @@ void Assembler::find_pending() {
       const int first = graph_.node(b.node_index[node]).first;
       for (int c = 0; c < b.block->size; ++c) {
         const std::size_t i = node * b.block->size + c;
-        pending_[first + c] = prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i] : 0.0;
+        pending_[first + c] =
+            prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i] : 0.0;
       }
     }
 }
 
 bool Assembler::prescribed_pending() const {
-  return communicator_.any(std::any_of(pending_.begin(), pending_.end(), [](double way) { return way != 0.0; }));
+  return communicator_.any(
+      std::any_of(pending_.begin(), pending_.end(), [](double way) { return way != 0.0; }));
 }
 
 int Assembler::row(const Field& field, int block, int node, int component) const {

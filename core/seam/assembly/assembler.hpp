@@ -11,15 +11,16 @@
 
 namespace seam {
 
-/// Turns fields and terms into one distributed nonlinear system. Unknowns are the active ones of all blocks of
-/// all fields; those of a node are contiguous. The set of active unknowns, of elements and of prescribed values
-/// may change at any time: call rebuild() afterwards. States live in the fields, not here, so nothing is lost.
+/// Turns fields and terms into one distributed nonlinear system. Unknowns are the active ones of all blocks
+/// of all fields; those of a node are contiguous. The set of active unknowns, of elements and of prescribed
+/// values may change at any time: call rebuild() afterwards. States live in the fields, not here, so nothing
+/// is lost.
 class Assembler {
  public:
   Assembler(std::vector<Field*> fields, const Communicator& communicator);
 
   /// Adds terms to be integrated over a domain.
-  void add(std::shared_ptr<const IntegrationDomain> domain, std::vector<BoundTerm> terms);
+  void add(const std::shared_ptr<const IntegrationDomain>& domain, const std::vector<BoundTerm>& terms);
 
   /// Numbers the active unknowns and builds the pattern. Collective.
   void rebuild();
@@ -30,7 +31,8 @@ class Assembler {
   /// [owned row]; zero where the unknown is prescribed.
   [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
   /// What the linear system is to be solved for: the residual, plus the tangent's action on the way that
-  /// prescribed unknowns have still to go. So a moved boundary takes the interior along in the first iteration.
+  /// prescribed unknowns have still to go. So a moved boundary takes the interior along in the first
+  /// iteration.
   [[nodiscard]] const std::vector<double>& right_side() const { return right_side_; }
   /// True when some prescribed unknown has not reached its value. Collective.
   [[nodiscard]] bool prescribed_pending() const;
@@ -91,7 +93,7 @@ class Assembler {
   std::vector<char> node_has_prescribed_;
   std::vector<double> pending_;  ///< per local unknown: prescribed minus present value
   std::vector<double> local_residual_, local_magnitude_;  ///< owned and ghost unknowns
-  std::vector<double> local_lift_;                        ///< the tangent's action on pending prescribed values
+  std::vector<double> local_lift_;  ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;
   std::vector<int> element_nodes_;
   double assembly_seconds_ = 0, pattern_seconds_ = 0;

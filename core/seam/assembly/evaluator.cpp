@@ -7,36 +7,42 @@
 #include <cmath>
 #include <stdexcept>
 
-
 namespace seam {
 
 const double* ElementEvaluator::Operators::of(Shape shape) const {
   switch (shape) {
-    case Shape::value: return value;
-    case Shape::gradient: return gradient.data();
-    case Shape::normal_derivative: return normal.data();
-    case Shape::second_normal_derivative: return second_normal.data();
+    case Shape::value:
+      return value;
+    case Shape::gradient:
+      return gradient.data();
+    case Shape::normal_derivative:
+      return normal.data();
+    case Shape::second_normal_derivative:
+      return second_normal.data();
   }
   return nullptr;
 }
 
-ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, std::vector<BoundTerm> terms) : domain_(&domain) {
+ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms)
+    : domain_(&domain) {
   dim_ = domain.fields().front()->mesh().dimension();
   find_parts(domain, terms);
   operators_.resize(parts_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
-    Compiled compiled{bound.term, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
+    Compiled compiled{bound.term,         &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values,
+                      s.column_size(dim_)};
     if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
     if (bound.operands.size() < s.components.size())
-      throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound", domain.description(),
-                                         s.components.size(), bound.operands.size()));
+      throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound",
+                                         domain.description(), s.components.size(), bound.operands.size()));
     for (std::size_t k = 0; k < s.components.size(); ++k) {
       const Operand& operand = bound.operands[k];
       const Field::Place place = domain.fields().at(operand.side)->place(operand.unknown);
       if (place.components != s.components[k])
-        throw std::logic_error(fmt::format("unknown '{}' has {} components, the term on {} expects {}", operand.unknown,
-                                           place.components, domain.description(), s.components[k]));
+        throw std::logic_error(fmt::format("unknown '{}' has {} components, the term on {} expects {}",
+                                           operand.unknown, place.components, domain.description(),
+                                           s.components[k]));
       const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) {
         return p.side == operand.side && p.block == place.block;
       });
@@ -96,7 +102,8 @@ void ElementEvaluator::add_change_to_magnitude() {
     for (int a = 0; a < part.nodes; ++a)
       for (int c = 0; c < part.components; ++c) {
         const std::size_t i = static_cast<std::size_t>(nodes[a]) * part.components + c;
-        change_[part.offset + c * part.stride + a] = std::abs(part.states->now.value[i] - part.states->old.value[i]);
+        change_[part.offset + c * part.stride + a] =
+            std::abs(part.states->now.value[i] - part.states->old.value[i]);
       }
   }
   add_absolute_product(size_, matrix_.data(), change_.data(), magnitude_.data());
@@ -132,7 +139,8 @@ void ElementEvaluator::compute_operators() {
           }
         }
     }
-    if (operators.needs_normal || operators.needs_second_normal) compute_normal_operators(static_cast<int>(p));
+    if (operators.needs_normal || operators.needs_second_normal)
+      compute_normal_operators(static_cast<int>(p));
   }
 }
 
@@ -148,10 +156,12 @@ void ElementEvaluator::compute_normal_operators(int p) {
     double direction[3] = {0, 0, 0};  // the normal in reference coordinates
     for (int j = 0; j < dim_; ++j)
       for (int i = 0; i < dim_; ++i)
-        direction[j] += side.inverse_jacobian[(static_cast<std::size_t>(q) * dim_ + j) * dim_ + i] * normal[i];
+        direction[j] +=
+            side.inverse_jacobian[(static_cast<std::size_t>(q) * dim_ + j) * dim_ + i] * normal[i];
     for (int a = 0; a < n; ++a)
       for (int j = 0; j < dim_; ++j) {
-        operators.normal[static_cast<std::size_t>(q) * n + a] += direction[j] * table.gradient_at(q)[j * n + a];
+        operators.normal[static_cast<std::size_t>(q) * n + a] +=
+            direction[j] * table.gradient_at(q)[j * n + a];
         // Exact on affine cells; on curved ones the map's own curvature, of higher order, is left out.
         for (int k = 0; k < dim_ && operators.needs_second_normal; ++k)
           operators.second_normal[static_cast<std::size_t>(q) * n + a] +=
@@ -239,7 +249,8 @@ void ElementEvaluator::add_residual(const Compiled& term) {
       for (int q = 0; q < element_.points; ++q)
         for (int i = 0; i < r; ++i) {
           const double coefficient =
-              element_.weight[q] * point_residual_[static_cast<std::size_t>(q) * term.outputs + at + c * r + i];
+              element_.weight[q] *
+              point_residual_[static_cast<std::size_t>(q) * term.outputs + at + c * r + i];
           const double* row = shape + (static_cast<std::ptrdiff_t>(q) * r + i) * n;
           for (int a = 0; a < n; ++a) {
             target[a] += coefficient * row[a];

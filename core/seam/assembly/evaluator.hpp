@@ -14,7 +14,7 @@ namespace seam {
 /// rate = factor (value - old value) + known part (thesis (2.93), (2.94)).
 struct TimePoint {
   double time = 0;
-  double step = 0;   ///< 0 in a static problem
+  double step = 0;  ///< 0 in a static problem
   double theta = 1;
   /// d(rate)/d(value) and d(second rate)/d(value).
   double rate_factor = 0;
@@ -30,21 +30,21 @@ struct BoundTerm {
 };
 
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
-/// by part (one per side and block in use), then component, then node, padded: component-major, so that the inner
-/// loops run over nodes in full vector registers.
+/// by part (one per side and block in use), then component, then node, padded: component-major, so that the
+/// inner loops run over nodes in full vector registers.
 class ElementEvaluator {
  public:
-  ElementEvaluator(const IntegrationDomain& domain, std::vector<BoundTerm> terms);
+  ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
 
   /// One block on one side.
   struct Part {
     int side;
     int block;
     Block* states;
-    int nodes;       ///< per element
-    int stride;      ///< nodes, padded to a multiple of 4: components are so far apart
+    int nodes;   ///< per element
+    int stride;  ///< nodes, padded to a multiple of 4: components are so far apart
     int components;
-    int offset;      ///< first row
+    int offset;  ///< first row
   };
   [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
   [[nodiscard]] int size() const { return size_; }
@@ -57,8 +57,9 @@ class ElementEvaluator {
   [[nodiscard]] const Element& element() const { return element_; }
   /// [row]
   [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
-  /// What the residual's size is measured by, [row]: the sum of the absolute contributions of all terms and points
-  /// and, with the tangent, |K| |change since the start of the step|, which sees forces that cancel within a term.
+  /// What the residual's size is measured by, [row]: the sum of the absolute contributions of all terms and
+  /// points and, with the tangent, |K| |change since the start of the step|, which sees forces that cancel
+  /// within a term.
   [[nodiscard]] const std::vector<double>& magnitude() const { return magnitude_; }
   /// [row][column]
   [[nodiscard]] const std::vector<double>& matrix() const { return matrix_; }

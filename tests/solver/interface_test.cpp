@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Two fields that meet at a matching interface, whose cells may lie on different ranks.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "diffusion.hpp"
+#include "seam/interface/matching.hpp"
+#include "seam/linear/krylov_solver.hpp"
+
+namespace {
+
+using namespace seam;
+
+/// Linear conduction in both bodies, transfer a (c0 - c1) between them.
+struct Conduction {
+  using Reads = Slots<Gradient<test::c>>;
+  using Tests = Slots<Gradient<test::c>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.gradient(test::c{}) += s.gradient(test::c{});
+  }
+};
+
+struct Transfer {
+  using left = Scalar<0>;
+  using right = Scalar<1>;
+  using Reads = Slots<Value<left>, Value<right>>;
+  using Tests = Reads;
+  double a;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const T flux = a * (s.value(left{}) - s.value(right{}));
+    r.value(left{}) += flux;
+    r.value(right{}) -= flux;
+  }
+};
+
+class Conductor final : public Physics {
+ public:
+  Conductor(int order, std::string held, double value) : order_(order), held_(std::move(held)), value_(value) {}
+  [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {{"c", 1, order_, 0, ""}}; }
+  void build(FieldSetup& setup) const override {
+    setup.add_cell_term(make_term(Conduction{}), {"c"});
+    setup.prescribe(held_, "c", 0, Expression(value_), {});
+  }
+
+ private:
+  int order_;
+  std::string held_;
+  double value_;
+};
+
+std::shared_ptr<const Mesh> half(CellType cell, double from, double to, int n) {
+  Grid grid;
+  grid.cell = cell;
+  grid.lines[0] = graded_lines(from, to, n);
+  for (int d = 1; d < topology(cell).dimension; ++d) grid.lines[d] = graded_lines(0, 1, 6);
+  return std::make_shared<Mesh>("half", std::make_shared<MeshData>(make_grid(grid)), Communicator());
+}
+
+/// Bodies [0, 1] and [1, 2] with c = 0 and c = 1 at the far ends.
+std::unique_ptr<Problem> two_bodies(CellType cell, int order) {
+  auto problem = std::make_unique<Problem>(Communicator());
+  std::vector<Field*> sides{&problem->add_field("left", half(cell, 0, 1, 5), std::make_unique<Conductor>(1, "x_min", 0.0)),
+                            &problem->add_field("right", half(cell, 1, 2, 3), std::make_unique<Conductor>(order, "x_max", 1.0))};
+  Parameters p;
+  p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
+  p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
+  problem->add_coupling(MatchingInterface(p).build(sides, 2 * order),
+                        {{make_term(Transfer{4.0}), {{0, "c"}, {1, "c"}}}});
+  problem->finish();
+  problem->initialise(0, false);
+  return problem;
+}
+
+Parameters krylov(const std::string& preconditioner) {
+  Parameters p;
+  p.set("tolerance", {1e-12, {}, {}, true});
+  p.set("maximum_iterations", {200L, {}, {}, true});
+  p.set("restart", {100L, {}, {}, true});
+  p.set("keep", {1.5, {}, {}, true});
+  p.set("preconditioner", {preconditioner, {}, {}, true});
+  return p;
+}
+
+void check_exact(Problem& problem) {
+  // In series: two bodies of resistance 1, a gap of resistance 1/4; the flux is 1/(2 + 1/4).
+  const double flux = 1 / 2.25;
+  const TimePoint at = time_point(1, 0, 1);
+  const std::vector<std::pair<std::string, double>> points{{"left", 1.0}, {"left", 0.3}, {"right", 1.0}, {"right", 1.7}};
+  for (const auto& [name, x] : points) {
+    const FieldEntry& entry = problem.field(name);
+    std::vector<double> position{x, 0.4, 0.6};
+    position.resize(entry.mesh->dimension());
+    const ProbePoint probe(entry, position, {});
+    const double expected = name == "left" ? flux * x : 1 - flux * (2 - x);
+    CHECK(probe.evaluate(entry, find_quantity(entry, "c"), at)[0] == Approx(expected).epsilon(1e-9));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("two bodies exchange through a matching interface", "[ranks]") {
+  const CellType cell = GENERATE(CellType::quadrilateral, CellType::triangle, CellType::hexahedron);
+  const int order = GENERATE(1, 2);
+  INFO(name(cell) << ", right body of order " << order);
+  auto problem = two_bodies(cell, order);
+  REQUIRE(test::solve_static(*problem).converged);
+  check_exact(*problem);
+}
+
+TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
+  const std::string preconditioner = GENERATE("multigrid", "ilu");
+  auto problem = two_bodies(CellType::hexahedron, 1);
+  KrylovSolver solver(krylov(preconditioner));
+  Newton newton(*problem, solver, {1e-11, 1e-5, 10, true});
+  const TimePoint at = time_point(1, 0, 1);
+  problem->begin_step(at);
+  const NewtonReport report = newton.solve(at);
+  REQUIRE(report.converged);
+  CHECK(report.history[0].linear_iterations < 60);
+  check_exact(*problem);
+}
+
+TEST_CASE("faces without a partner are named") {
+  auto problem = std::make_unique<Problem>(Communicator());
+  std::vector<Field*> sides{
+      &problem->add_field("left", half(CellType::quadrilateral, 0, 1, 5), std::make_unique<Conductor>(1, "x_min", 0.0)),
+      &problem->add_field("right", half(CellType::quadrilateral, 1.5, 2, 3), std::make_unique<Conductor>(1, "x_max", 1.0))};
+  Parameters p;
+  p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
+  p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
+  CHECK_THROWS_WITH(MatchingInterface(p).build(sides, 2),
+                    Catch::Contains("face of 'left' on boundary 'x_max'") && Catch::Contains("no matching face"));
+}
