@@ -205,7 +205,7 @@ std::string PluginHost::Found::why_not() const {
                  : "";
 }
 
-PluginHost::PluginHost(std::vector<std::filesystem::path> folders) {
+PluginHost::PluginHost(const std::vector<std::filesystem::path>& folders) {
   for (const fs::path& folder : folders) add_folder(folder);
 }
 

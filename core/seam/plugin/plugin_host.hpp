@@ -48,7 +48,7 @@ class PluginHost {
   };
 
   /// Searches these folders, in this order.
-  explicit PluginHost(std::vector<std::filesystem::path> folders);
+  explicit PluginHost(const std::vector<std::filesystem::path>& folders);
   /// The folder of the plugins that come with Seam (installed or in the build tree), then those that the
   /// environment variable SEAM_PLUGIN_PATH lists, separated by ':'.
   static PluginHost standard();
