@@ -14,9 +14,9 @@ namespace seam::solid {
 /// What a material sees of a deformation gradient, and what is needed to turn its answer into a stress.
 template <int dim, class T>
 struct Deformation {
-  Mat<dim, dim, T> f;         ///< deformation gradient; F33 = 1 in the plane
-  Mat<dim, dim, T> cofactor;  ///< J F^-T
-  std::array<T, 3> invariant; ///< I1, I2, J of C = F^T F in three dimensions
+  Mat<dim, dim, T> f;          ///< deformation gradient; F33 = 1 in the plane
+  Mat<dim, dim, T> cofactor;   ///< J F^-T
+  std::array<T, 3> invariant;  ///< I1, I2, J of C = F^T F in three dimensions
 
   explicit Deformation(const Mat<dim, dim, T>& displacement_gradient) : f(displacement_gradient) {
     for (int i = 0; i < dim; ++i) f(i, i) += 1.0;

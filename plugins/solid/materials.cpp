@@ -14,7 +14,8 @@ using Invariants = std::array<T, 3>;
 /// Thesis (2.17): psi = c (I1 - 3) + c/beta (J^(-2 beta) - 1). Its limit at nu = 0 is c (I1 - 3) - 2 c ln J.
 struct NeoHookean {
   double c, beta;
-  NeoHookean(double young, double poisson) : c(young / (4 * (1 + poisson))), beta(poisson / (1 - 2 * poisson)) {}
+  NeoHookean(double young, double poisson)
+      : c(young / (4 * (1 + poisson))), beta(poisson / (1 - 2 * poisson)) {}
   template <class T>
   T energy(const Invariants<T>& i) const {
     using std::expm1, std::log;
@@ -33,7 +34,8 @@ struct DecoupledNeoHookean {
   template <class T>
   T energy(const Invariants<T>& i) const {
     using std::log, std::pow;
-    return 0.5 * kappa * (0.5 * (i[2] * i[2] - 1.0) - log(i[2])) + 0.5 * mu * (pow(i[2], -2.0 / 3) * i[0] - 3.0);
+    return 0.5 * kappa * (0.5 * (i[2] * i[2] - 1.0) - log(i[2])) +
+           0.5 * mu * (pow(i[2], -2.0 / 3) * i[0] - 3.0);
   }
 };
 
@@ -59,9 +61,10 @@ Schema elastic_schema(const std::string& summary) {
 
 template <class Law>
 void declare(Registry& registry, const std::string& name, const std::string& summary) {
-  registry.add<Potential>("hyperelastic", name, elastic_schema(summary), [](const Parameters& p, const Registry&) {
-    return std::make_unique<LawPotential<3, Law>>(Law(p.number("young"), p.number("poisson")));
-  });
+  registry.add<Potential>(
+      "hyperelastic", name, elastic_schema(summary), [](const Parameters& p, const Registry&) {
+        return std::make_unique<LawPotential<3, Law>>(Law(p.number("young"), p.number("poisson")));
+      });
 }
 
 }  // namespace
@@ -70,9 +73,10 @@ void declare_materials(Registry& registry) {
   declare<NeoHookean>(registry, "neo_hookean", "Compressible neo-Hookean solid, thesis (2.17).");
   declare<DecoupledNeoHookean>(registry, "decoupled_neo_hookean",
                                "Neo-Hookean solid with volumetric and isochoric energy apart.");
-  declare<SaintVenantKirchhoff>(registry, "saint_venant_kirchhoff",
-                                "Linear law between Green-Lagrange strain and second Piola-Kirchhoff stress; not for "
-                                "strong compression.");
+  declare<SaintVenantKirchhoff>(
+      registry, "saint_venant_kirchhoff",
+      "Linear law between Green-Lagrange strain and second Piola-Kirchhoff stress; not for "
+      "strong compression.");
 }
 
 }  // namespace seam::solid

@@ -11,7 +11,7 @@ SEAM_PLUGIN(registry) {
   registry.add<Physics>("field", "solid", solid::Solid::schema(), [](const Parameters& p, const Registry& r) {
     return std::make_unique<solid::Solid>(p, r);
   });
-  registry.add<Physics>("field", "rigid_body", solid::RigidBody::schema(), [](const Parameters& p, const Registry&) {
-    return std::make_unique<solid::RigidBody>(p);
-  });
+  registry.add<Physics>(
+      "field", "rigid_body", solid::RigidBody::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<solid::RigidBody>(p); });
 }

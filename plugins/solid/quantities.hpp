@@ -19,7 +19,8 @@ struct Velocity {
 
 /// Cauchy stress P F^T / J in three dimensions, Pa: xx, yy, zz, xy, yz, xz.
 template <int dim>
-std::array<double, 6> cauchy_stress(const Potential& material, const Mat<dim, dim, double>& displacement_gradient) {
+std::array<double, 6> cauchy_stress(const Potential& material,
+                                    const Mat<dim, dim, double>& displacement_gradient) {
   const Deformation<dim, double> d(displacement_gradient);
   const auto slope = gradient<3, double>(material, d.invariant);
   const double j = d.invariant[2];

@@ -60,8 +60,8 @@ Vec<3, T> cross(const Vec<3, T>& a, const Vec<3, T>& b) {
 struct RigidInertia {
   using Reads = Slots<Value<rotation>, Rate<rotation>, SecondRate<translation>, SecondRate<rotation>>;
   using Tests = Slots<Value<translation>, Value<rotation>>;
-  double mass;               ///< kg
-  Mat<3, 3, double> inertia; ///< about the centre, in the reference position, kg m^2
+  double mass;                ///< kg
+  Mat<3, 3, double> inertia;  ///< about the centre, in the reference position, kg m^2
 
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
@@ -93,9 +93,9 @@ struct RigidInertia {
 struct RigidForces {
   using Reads = Slots<Value<translation>, Rate<translation>, Value<rotation>, Rate<rotation>>;
   using Tests = Slots<Value<translation>, Value<rotation>>;
-  std::vector<double> stiffness, damping;            ///< per translation component, N/m, N s/m
-  double rotational_stiffness, rotational_damping;   ///< N m, N m s
-  std::vector<Expression> force, moment;             ///< N, N m; empty for none
+  std::vector<double> stiffness, damping;           ///< per translation component, N/m, N s/m
+  double rotational_stiffness, rotational_damping;  ///< N m, N m s
+  std::vector<Expression> force, moment;            ///< N, N m; empty for none
 
   template <int dim, class T>
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
@@ -136,7 +136,8 @@ struct RigidKineticEnergy {
       *value += 0.5 * body.inertia(2, 2) * s.rate(rotation{}) * s.rate(rotation{});
     } else {
       const Vec<3, double> phi = s.value(rotation{});
-      const Vec<3, double> in_body = transpose(rotation_tensor(phi)) * (rotation_tangent(phi) * s.rate(rotation{}));
+      const Vec<3, double> in_body =
+          transpose(rotation_tensor(phi)) * (rotation_tangent(phi) * s.rate(rotation{}));
       *value += 0.5 * dot(in_body, body.inertia * in_body);
     }
   }
@@ -154,11 +155,20 @@ RigidInertia inertia_of(const Moments& moments, double density, int dim) {
 }  // namespace
 
 Schema RigidBody::schema() {
-  Schema s("Body that moves without deforming; each component of its motion is given or follows from the forces.");
+  Schema s(
+      "Body that moves without deforming; each component of its motion is given or follows from the forces.");
   s.reference("mesh", "Its shape, in the reference position", "mesh");
-  s.vector_expression("translation", "Motion of its centre; null leaves a component free, default all free").unit("m").optional();
-  s.vector_expression("rotation", "Angle (2D) or rotation vector (3D) about its centre; null leaves it free").unit("rad").entries(-1).optional();
-  s.number("density", "Mass per volume; 0 for a body without inertia").unit("kg/m^3").otherwise("0").at_least(0);
+  s.vector_expression("translation", "Motion of its centre; null leaves a component free, default all free")
+      .unit("m")
+      .optional();
+  s.vector_expression("rotation", "Angle (2D) or rotation vector (3D) about its centre; null leaves it free")
+      .unit("rad")
+      .entries(-1)
+      .optional();
+  s.number("density", "Mass per volume; 0 for a body without inertia")
+      .unit("kg/m^3")
+      .otherwise("0")
+      .at_least(0);
   s.vector("stiffness", "Springs that hold the centre, per direction").unit("N/m").optional();
   s.vector("damping", "Dashpots at the centre, per direction").unit("N s/m").optional();
   s.number("rotational_stiffness", "Spring against rotation").unit("N m").otherwise("0").at_least(0);
@@ -168,7 +178,10 @@ Schema RigidBody::schema() {
   s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
   Schema initial("Motion at the start");
   initial.vector("velocity", "Velocity of the centre").unit("m/s").optional();
-  initial.vector("rotation_rate", "Rate of the rotation: one entry in 2D, three in 3D").unit("rad/s").entries(-1).optional();
+  initial.vector("rotation_rate", "Rate of the rotation: one entry in 2D, three in 3D")
+      .unit("rad/s")
+      .entries(-1)
+      .optional();
   s.object("initial", "Motion at the start; default at rest", initial).optional();
   return s;
 }
@@ -188,8 +201,8 @@ void RigidBody::prescribe(FieldSetup& setup, const std::string& unknown) const {
   const auto& values = parameters_.vector_expression(unknown);
   const std::size_t expected = unknown == "translation" ? setup.dimension() : setup.dimension() == 2 ? 1 : 3;
   if (values.size() != expected)
-    throw Error(parameters_.where(unknown), "`" + unknown + "` needs " + std::to_string(expected) + " entries, found " +
-                                                std::to_string(values.size()));
+    throw Error(parameters_.where(unknown), "`" + unknown + "` needs " + std::to_string(expected) +
+                                                " entries, found " + std::to_string(values.size()));
   for (std::size_t d = 0; d < values.size(); ++d)
     if (parameters_.component_given(unknown, static_cast<int>(d)))
       setup.prescribe("", unknown, static_cast<int>(d), values[d], parameters_.where(unknown));
@@ -200,12 +213,13 @@ void RigidBody::build(FieldSetup& setup) const {
   prescribe(setup, "translation");
   prescribe(setup, "rotation");
   const std::vector<double> none(dim, 0.0);
-  RigidForces forces{parameters_.has("stiffness") ? parameters_.vector("stiffness") : none,
-                     parameters_.has("damping") ? parameters_.vector("damping") : none,
-                     parameters_.number("rotational_stiffness"),
-                     parameters_.number("rotational_damping"),
-                     parameters_.has("force") ? parameters_.vector_expression("force") : std::vector<Expression>{},
-                     parameters_.has("moment") ? parameters_.vector_expression("moment") : std::vector<Expression>{}};
+  RigidForces forces{
+      parameters_.has("stiffness") ? parameters_.vector("stiffness") : none,
+      parameters_.has("damping") ? parameters_.vector("damping") : none,
+      parameters_.number("rotational_stiffness"),
+      parameters_.number("rotational_damping"),
+      parameters_.has("force") ? parameters_.vector_expression("force") : std::vector<Expression>{},
+      parameters_.has("moment") ? parameters_.vector_expression("moment") : std::vector<Expression>{}};
   if (!forces.moment.empty() && forces.moment.size() != (dim == 2 ? 1u : 3u))
     throw Error(parameters_.where("moment"), "`moment` needs one entry in 2D, three in 3D");
   setup.add_cell_term(make_term(forces), unknown_names);
@@ -216,11 +230,13 @@ void RigidBody::build(FieldSetup& setup) const {
     setup.add_cell_term(make_term(body), unknown_names);
     setup.add_integral("kinetic_energy", make_quantity(RigidKineticEnergy{body}), unknown_names);
     if (parameters_.has("body_force"))
-      setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), body.mass}), unknown_names);
+      setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), body.mass}),
+                          unknown_names);
   }
   if (!parameters_.has("initial")) return;
   const Parameters& initial = parameters_.object("initial");
-  for (const auto& [key, unknown] : {std::pair("velocity", "translation"), std::pair("rotation_rate", "rotation")})
+  for (const auto& [key, unknown] :
+       {std::pair("velocity", "translation"), std::pair("rotation_rate", "rotation")})
     if (initial.has(key))
       for (std::size_t d = 0; d < initial.vector(key).size(); ++d)
         setup.set_initial_rate(unknown, static_cast<int>(d), Expression(initial.vector(key)[d]));

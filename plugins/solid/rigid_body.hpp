@@ -6,9 +6,9 @@
 
 namespace seam::solid {
 
-/// A body that moves without deforming. Its unknowns are the translation of its centre and its rotation (angle
-/// in 2D, rotation vector in 3D); each component is either given as a function of time or follows from mass,
-/// inertia, springs, dashpots and loads.
+/// A body that moves without deforming. Its unknowns are the translation of its centre and its rotation
+/// (angle in 2D, rotation vector in 3D); each component is either given as a function of time or follows from
+/// mass, inertia, springs, dashpots and loads.
 class RigidBody final : public Physics {
  public:
   explicit RigidBody(const Parameters& parameters) : parameters_(parameters) {}

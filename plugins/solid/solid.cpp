@@ -13,7 +13,9 @@ const std::vector<std::string> mixed_unknowns{unknown_name, "pressure", "dilatio
 Schema boundary_schema() {
   Schema s("A condition on part of the boundary.");
   s.names("on", "Boundaries of the mesh").naming("boundary");
-  s.vector_expression("displacement", "Prescribed displacement; null leaves a component free").unit("m").optional();
+  s.vector_expression("displacement", "Prescribed displacement; null leaves a component free")
+      .unit("m")
+      .optional();
   s.vector_expression("traction", "Dead load per reference area").unit("Pa").optional();
   s.expression("pressure", "Load along the current inward normal, per current area").unit("Pa").optional();
   return s;
@@ -25,13 +27,18 @@ Schema Solid::schema() {
   Schema s("Deformable body of hyperelastic material at finite strain; plane strain in 2D.");
   s.reference("mesh", "Its reference shape", "mesh");
   s.typed("material", "Strain energy", "hyperelastic");
-  s.number("density", "Mass per reference volume; 0 leaves out inertia").unit("kg/m^3").otherwise("0").at_least(0);
-  s.choice("formulation", "`mixed` (with pressure and dilation) does not lock when nearly incompressible; needs order 2",
+  s.number("density", "Mass per reference volume; 0 leaves out inertia")
+      .unit("kg/m^3")
+      .otherwise("0")
+      .at_least(0);
+  s.choice("formulation",
+           "`mixed` (with pressure and dilation) does not lock when nearly incompressible; needs order 2",
            {"displacement", "mixed"})
       .otherwise("displacement");
   s.integer("order", "Polynomial order of the displacement").otherwise("1").at_least(1).at_most(2);
   s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
-  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction", boundary_schema())
+  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction",
+         boundary_schema())
       .otherwise("[]");
   Schema initial("State at the start");
   initial.vector_expression("displacement", "Displacement").unit("m").optional();
@@ -70,7 +77,8 @@ void Solid::build(FieldSetup& setup) const {
     for (int d = 0; d < setup.dimension(); ++d) {
       if (initial.has("displacement"))
         setup.set_initial(unknown_name, d, initial.vector_expression("displacement")[d]);
-      if (initial.has("velocity")) setup.set_initial_rate(unknown_name, d, initial.vector_expression("velocity")[d]);
+      if (initial.has("velocity"))
+        setup.set_initial_rate(unknown_name, d, initial.vector_expression("velocity")[d]);
     }
   }
   add_outputs(setup);
@@ -84,8 +92,10 @@ void Solid::add_body_terms(FieldSetup& setup) const {
   if (density_ > 0) setup.add_cell_term(make_term(Inertia{density_}), displacement_only);
   if (!parameters_.has("body_force")) return;
   if (density_ == 0)
-    throw Error(parameters_.where("body_force"), "a body force per mass acts on a body without mass: give a `density`");
-  setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), density_}, 1), displacement_only);
+    throw Error(parameters_.where("body_force"),
+                "a body force per mass acts on a body without mass: give a `density`");
+  setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), density_}, 1),
+                      displacement_only);
 }
 
 void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
@@ -96,9 +106,11 @@ void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
           setup.prescribe(name, unknown_name, d, condition.vector_expression("displacement")[d],
                           condition.where("displacement"));
     if (condition.has("traction"))
-      setup.add_boundary_term(name, make_term(Load{condition.vector_expression("traction"), 1.0}, 1), displacement_only);
+      setup.add_boundary_term(name, make_term(Load{condition.vector_expression("traction"), 1.0}, 1),
+                              displacement_only);
     if (condition.has("pressure"))
-      setup.add_boundary_term(name, make_term(FollowerPressure{condition.expression("pressure")}, 1), displacement_only);
+      setup.add_boundary_term(name, make_term(FollowerPressure{condition.expression("pressure")}, 1),
+                              displacement_only);
   }
 }
 

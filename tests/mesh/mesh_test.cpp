@@ -43,7 +43,7 @@ Columns jacobian(const MeshData& mesh, int cell, const ShapeTable& shapes, int p
   for (int k = 0; k < dim; ++k)
     for (int a = 0; a < n; ++a)
       for (int i = 0; i < dim; ++i)
-        j.x[k][i] += shapes.gradient_at(point)[k * n + a] *
+        j.x[k][i] += shapes.gradient_at(point)[k * shapes.stride + a] *
                      mesh.coordinates[static_cast<std::size_t>(mesh.cells[cell * n + a]) * dim + i];
   return j;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energy of a body that swings freely: nothing is fed in, so implicit Euler may only lose and the trapezoidal rule
-// must nearly keep it.
+// Energy of a body that swings freely: nothing is fed in, so implicit Euler may only lose and the trapezoidal
+// rule must nearly keep it.
 #include <cmath>
 #include <sstream>
 
@@ -22,7 +22,9 @@ const std::string free_swing =
 /// Kinetic plus strain energy at every step.
 std::vector<double> energies(const Folder& folder, const std::string& theta) {
   const std::string file = folder.file("swing.yaml", free_swing);
-  REQUIRE(seam("run " + file + " --quiet --set parameters.theta=" + theta + " --folder " + folder.path.string()).code == 0);
+  REQUIRE(
+      seam("run " + file + " --quiet --set parameters.theta=" + theta + " --folder " + folder.path.string())
+          .code == 0);
   std::istringstream in(folder.read("series.csv"));
   std::string line;
   std::getline(in, line);

@@ -9,9 +9,10 @@ namespace {
 /// Runs a scene of configs/solid; its checks decide.
 void passes(const std::string& scene, const std::string& variant = "", const std::string& before = "") {
   const Folder folder;
-  const Result result = seam("run " SEAM_SOURCE_DIR "/configs/solid/" + scene + ".yaml --quiet --no-picture --folder " +
-                                 folder.path.string() + " " + variant,
-                             before);
+  const Result result =
+      seam("run " SEAM_SOURCE_DIR "/configs/solid/" + scene + ".yaml --quiet --no-picture --folder " +
+               folder.path.string() + " " + variant,
+           before);
   INFO(result.output);
   CHECK(result.code == 0);
 }

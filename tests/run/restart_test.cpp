@@ -75,7 +75,8 @@ TEST_CASE("a run that is killed at any moment loses nothing but the last point")
   const std::string often = " --set output.restart.every=1 ";
   REQUIRE(seam(run(folder, "whole", often)).code == 0);
   for (int attempt = 1; attempt <= 12; ++attempt) {
-    const Result result = seam(run(folder, "killed", often + "--resume"), "timeout -s KILL 0." + std::to_string(attempt % 4 + 2));
+    const Result result = seam(run(folder, "killed", often + "--resume"),
+                               "timeout -s KILL 0." + std::to_string(attempt % 4 + 2));
     if (result.code == 0) break;
   }
   REQUIRE(seam(run(folder, "killed", often + "--resume")).code == 0);

@@ -26,7 +26,8 @@ double tangent_error(Problem& problem, double amplitude) {
   assembler.assemble(at, true);
   const int rows = assembler.matrix().rows;
   std::vector<double> direction(rows), product;
-  for (int r = 0; r < rows; ++r) direction[r] = std::cos(2.3 * static_cast<double>(assembler.matrix().first_row + r));
+  for (int r = 0; r < rows; ++r)
+    direction[r] = std::cos(2.3 * static_cast<double>(assembler.matrix().first_row + r));
   multiply(assembler.matrix(), direction, product);
   const std::vector<double> mask = assembler.residual();
   const double step = 1e-5 * amplitude;
@@ -49,7 +50,8 @@ double tangent_error(Problem& problem, double amplitude) {
 }  // namespace
 
 TEST_CASE("tangents of cell and interior face terms match finite differences", "[ranks]") {
-  const CellType cell = GENERATE(CellType::quadrilateral, CellType::triangle, CellType::hexahedron, CellType::tetrahedron);
+  const CellType cell =
+      GENERATE(CellType::quadrilateral, CellType::triangle, CellType::hexahedron, CellType::tetrahedron);
   const int order = GENERATE(1, 2);
   auto problem = test::diffusion_problem(cell, 3, {1.0, 0.3, 0.2, true, order, "0.2"});
   problem->finish();
@@ -63,7 +65,8 @@ TEST_CASE("interior face terms couple neighbours of neighbours and see no jump o
   narrow->finish();
   auto wide = test::diffusion_problem(CellType::quadrilateral, 6, {1.0, 0.1, 0.1, true, 1, "0"});
   wide->finish();
-  CHECK(wide->assembler().matrix().entries() > 1.5 * static_cast<double>(narrow->assembler().matrix().entries()));
+  CHECK(wide->assembler().matrix().entries() >
+        1.5 * static_cast<double>(narrow->assembler().matrix().entries()));
 
   // A linear function has no jump: with no source its residual vanishes inside, penalty or not.
   auto smooth = test::diffusion_problem(CellType::quadrilateral, 6, {0.0, 1.0, 1.0, false, 2, "0"});
@@ -84,8 +87,8 @@ TEST_CASE("a field that is not held is named", "[ranks]") {
   auto problem = test::diffusion_problem(CellType::quadrilateral, 4, {1.0, 0.0, 0.0, false, 1, "0"});
   problem->finish();
   problem->initialise(0);
-  CHECK_THROWS_WITH(test::solve_static(*problem),
-                    Catch::Contains("field 'body' is not held") && Catch::Contains("its c can change by a constant"));
+  CHECK_THROWS_WITH(test::solve_static(*problem), Catch::Contains("field 'body' is not held") &&
+                                                      Catch::Contains("its c can change by a constant"));
 }
 
 TEST_CASE("two conditions on the same unknown are reported with both places") {
@@ -98,7 +101,9 @@ TEST_CASE("two conditions on the same unknown are reported with both places") {
     }
   };
   Problem problem{Communicator()};
-  CHECK_THROWS_WITH(problem.add_field("body", std::make_shared<Mesh>("box", test::box(CellType::quadrilateral, 2), Communicator()),
-                                      std::make_unique<Twice>()),
-                    Catch::Contains("scene.yaml:3:5") && Catch::Contains("scene.yaml:7:5"));
+  CHECK_THROWS_WITH(
+      problem.add_field("body",
+                        std::make_shared<Mesh>("box", test::box(CellType::quadrilateral, 2), Communicator()),
+                        std::make_unique<Twice>()),
+      Catch::Contains("scene.yaml:3:5") && Catch::Contains("scene.yaml:7:5"));
 }

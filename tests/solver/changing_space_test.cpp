@@ -11,7 +11,8 @@ using namespace seam;
 /// Cells whose first vertex lies left of `front`.
 std::vector<char> left_of(const Mesh& mesh, double front) {
   std::vector<char> active(mesh.cells());
-  for (int cell = 0; cell < mesh.cells(); ++cell) active[cell] = mesh.geometry(cell)[0] < front - 1e-12 ? 1 : 0;
+  for (int cell = 0; cell < mesh.cells(); ++cell)
+    active[cell] = mesh.geometry(cell)[0] < front - 1e-12 ? 1 : 0;
   return active;
 }
 

@@ -82,7 +82,8 @@ TEST_CASE("the time scheme has order 1 for theta = 1 and order 2 for theta = 0.5
   }
 }
 
-TEST_CASE("the mixed form converges with the displacement form's orders, nearly incompressible too", "[ranks]") {
+TEST_CASE("the mixed form converges with the displacement form's orders, nearly incompressible too",
+          "[ranks]") {
   Body body;
   body.cell = GENERATE(CellType::quadrilateral, CellType::triangle);
   body.order = 2;
@@ -117,9 +118,11 @@ TEST_CASE("Newton's method is quadratic at large deformation", "[ranks]") {
   INFO("log10 of the residuals: " << shown);
   REQUIRE(residual.size() >= 4);
   REQUIRE(residual.back() < -12);
-  // The last residual may be cut off by rounding, the ones before may not be in the basin yet: of the last two
-  // observed orders the better one counts.
-  const auto order = [&](std::size_t k) { return (residual[k] - residual[k - 1]) / (residual[k - 1] - residual[k - 2]); };
+  // The last residual may be cut off by rounding, the ones before may not be in the basin yet: of the last
+  // two observed orders the better one counts.
+  const auto order = [&](std::size_t k) {
+    return (residual[k] - residual[k - 1]) / (residual[k - 1] - residual[k - 2]);
+  };
   const std::size_t last = residual.size() - 1;
   CHECK(std::max(order(last), order(last - 1)) > 1.9);
 }

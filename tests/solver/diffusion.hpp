@@ -39,7 +39,8 @@ struct JumpPenalty {
     const T jump = first * h * (s.normal_derivative(left{}) - s.normal_derivative(right{}));
     r.normal_derivative(left{}) += jump;
     r.normal_derivative(right{}) -= jump;
-    const T bend = second * h * h * h * (s.second_normal_derivative(left{}) - s.second_normal_derivative(right{}));
+    const T bend =
+        second * h * h * h * (s.second_normal_derivative(left{}) - s.second_normal_derivative(right{}));
     r.second_normal_derivative(left{}) += bend;
     r.second_normal_derivative(right{}) -= bend;
   }
@@ -48,7 +49,7 @@ struct JumpPenalty {
 struct Options {
   double source = 1;
   double first_jump = 0, second_jump = 0;
-  bool held = true;          ///< c = value on x_min
+  bool held = true;  ///< c = value on x_min
   int order = 1;
   std::string value = "0";
 };
@@ -56,11 +57,14 @@ struct Options {
 class DiffusionPhysics final : public Physics {
  public:
   explicit DiffusionPhysics(Options options) : options_(std::move(options)) {}
-  [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {{"c", 1, options_.order, 0, ""}}; }
+  [[nodiscard]] std::vector<Unknown> unknowns(int) const override {
+    return {{"c", 1, options_.order, 0, ""}};
+  }
   void build(FieldSetup& setup) const override {
     setup.add_cell_term(make_term(Diffusion{options_.source}), {"c"});
     if (options_.first_jump > 0 || options_.second_jump > 0)
-      setup.add_interior_face_term(make_term(JumpPenalty{options_.first_jump, options_.second_jump}), {{0, "c"}, {1, "c"}});
+      setup.add_interior_face_term(make_term(JumpPenalty{options_.first_jump, options_.second_jump}),
+                                   {{0, "c"}, {1, "c"}});
     if (options_.held) setup.prescribe("x_min", "c", 0, Expression(options_.value, {}), {});
   }
 

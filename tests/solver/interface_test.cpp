@@ -37,7 +37,8 @@ struct Transfer {
 
 class Conductor final : public Physics {
  public:
-  Conductor(int order, std::string held, double value) : order_(order), held_(std::move(held)), value_(value) {}
+  Conductor(int order, std::string held, double value)
+      : order_(order), held_(std::move(held)), value_(value) {}
   [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {{"c", 1, order_, 0, ""}}; }
   void build(FieldSetup& setup) const override {
     setup.add_cell_term(make_term(Conduction{}), {"c"});
@@ -61,8 +62,9 @@ std::shared_ptr<const Mesh> half(CellType cell, double from, double to, int n) {
 /// Bodies [0, 1] and [1, 2] with c = 0 and c = 1 at the far ends.
 std::unique_ptr<Problem> two_bodies(CellType cell, int order) {
   auto problem = std::make_unique<Problem>(Communicator());
-  std::vector<Field*> sides{&problem->add_field("left", half(cell, 0, 1, 5), std::make_unique<Conductor>(1, "x_min", 0.0)),
-                            &problem->add_field("right", half(cell, 1, 2, 3), std::make_unique<Conductor>(order, "x_max", 1.0))};
+  std::vector<Field*> sides{
+      &problem->add_field("left", half(cell, 0, 1, 5), std::make_unique<Conductor>(1, "x_min", 0.0)),
+      &problem->add_field("right", half(cell, 1, 2, 3), std::make_unique<Conductor>(order, "x_max", 1.0))};
   Parameters p;
   p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
   p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
@@ -87,7 +89,8 @@ void check_exact(Problem& problem) {
   // In series: two bodies of resistance 1, a gap of resistance 1/4; the flux is 1/(2 + 1/4).
   const double flux = 1 / 2.25;
   const TimePoint at = time_point(1, 0, 1);
-  const std::vector<std::pair<std::string, double>> points{{"left", 1.0}, {"left", 0.3}, {"right", 1.0}, {"right", 1.7}};
+  const std::vector<std::pair<std::string, double>> points{
+      {"left", 1.0}, {"left", 0.3}, {"right", 1.0}, {"right", 1.7}};
   for (const auto& [name, x] : points) {
     const FieldEntry& entry = problem.field(name);
     std::vector<double> position{x, 0.4, 0.6};
@@ -124,12 +127,14 @@ TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
 
 TEST_CASE("faces without a partner are named") {
   auto problem = std::make_unique<Problem>(Communicator());
-  std::vector<Field*> sides{
-      &problem->add_field("left", half(CellType::quadrilateral, 0, 1, 5), std::make_unique<Conductor>(1, "x_min", 0.0)),
-      &problem->add_field("right", half(CellType::quadrilateral, 1.5, 2, 3), std::make_unique<Conductor>(1, "x_max", 1.0))};
+  std::vector<Field*> sides{&problem->add_field("left", half(CellType::quadrilateral, 0, 1, 5),
+                                                std::make_unique<Conductor>(1, "x_min", 0.0)),
+                            &problem->add_field("right", half(CellType::quadrilateral, 1.5, 2, 3),
+                                                std::make_unique<Conductor>(1, "x_max", 1.0))};
   Parameters p;
   p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
   p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
-  CHECK_THROWS_WITH(MatchingInterface(p).build(sides, 2),
-                    Catch::Contains("face of 'left' on boundary 'x_max'") && Catch::Contains("no matching face"));
+  CHECK_THROWS_WITH(
+      MatchingInterface(p).build(sides, 2),
+      Catch::Contains("face of 'left' on boundary 'x_max'") && Catch::Contains("no matching face"));
 }

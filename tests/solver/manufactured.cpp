@@ -33,7 +33,8 @@ class ManufacturedSolid final : public Physics {
   void build(FieldSetup& setup) const override {
     const std::vector<std::string> u{"displacement"};
     if (body_.mixed)
-      setup.add_cell_term(make_term(solid::MixedInternalForce{material_}), {"displacement", "pressure", "dilation"});
+      setup.add_cell_term(make_term(solid::MixedInternalForce{material_}),
+                          {"displacement", "pressure", "dilation"});
     else
       setup.add_cell_term(make_term(solid::InternalForce{material_}), u);
     if (body_.dynamic) setup.add_cell_term(make_term(solid::Inertia{density}), u);
@@ -43,7 +44,8 @@ class ManufacturedSolid final : public Physics {
     for (int d = 0; d < dim; ++d) {
       for (const char* axis : {"x", "y", "z"})
         for (const char* end : {"min", "max"})
-          if (axis[0] - 'x' < dim) setup.prescribe(std::string(axis) + "_" + end, "displacement", d, exact[d], {});
+          if (axis[0] - 'x' < dim)
+            setup.prescribe(std::string(axis) + "_" + end, "displacement", d, exact[d], {});
       setup.set_initial("displacement", d, exact[d]);
       setup.set_initial_rate("displacement", d, rate[d]);
     }
@@ -92,7 +94,8 @@ std::vector<Expression> Wave::gradient_text(int dim) const {
       std::string slope = "0";
       if (j == i) slope = linear ? "1" : fmt::format("pi*cos(pi*{} + 0.3)*cos(pi*{})", x[i], x[k]);
       if (j == k) slope = linear ? "0.5" : fmt::format("(-pi)*sin(pi*{} + 0.3)*sin(pi*{})", x[i], x[k]);
-      e.emplace_back(fmt::format("{}*cos({}*t)*{}", amplitude, frequency, slope), std::map<std::string, double>{});
+      e.emplace_back(fmt::format("{}*cos({}*t)*{}", amplitude, frequency, slope),
+                     std::map<std::string, double>{});
     }
   return e;
 }
@@ -125,7 +128,8 @@ ErrorNorms solve(const Body& body, double theta, double end, int steps) {
     REQUIRE(report.converged);
   }
   const int dim = topology(body.cell).dimension;
-  return error_norms(problem->fields()[0], "displacement", body.exact.text(dim), body.exact.gradient_text(dim), end);
+  return error_norms(problem->fields()[0], "displacement", body.exact.text(dim),
+                     body.exact.gradient_text(dim), end);
 }
 
 }  // namespace seam::test

@@ -18,8 +18,8 @@ namespace seam::test {
 /// u_i(X, t), as a template on the scalar type and as text for boundary values and error norms.
 struct Wave {
   double amplitude = 0.1;
-  double frequency = 0;   ///< of cos(frequency t); 0: constant in time
-  bool linear = false;    ///< linear in space, so that only the error in time remains
+  double frequency = 0;  ///< of cos(frequency t); 0: constant in time
+  bool linear = false;   ///< linear in space, so that only the error in time remains
 
   template <int dim, class T>
   Vec<dim, T> operator()(const Vec<dim, T>& x, const T& t) const {
@@ -28,7 +28,8 @@ struct Wave {
     const T g = amplitude * cos(frequency * t);
     Vec<dim, T> u;
     for (int i = 0; i < dim; ++i)
-      u[i] = linear ? g * x[i] + 0.5 * (g * x[(i + 1) % dim]) : g * (sin(pi * x[i] + 0.3) * cos(pi * x[(i + 1) % dim]));
+      u[i] = linear ? g * x[i] + 0.5 * (g * x[(i + 1) % dim])
+                    : g * (sin(pi * x[i] + 0.3) * cos(pi * x[(i + 1) % dim]));
     return u;
   }
   [[nodiscard]] std::vector<Expression> text(int dim) const;
@@ -81,7 +82,7 @@ struct ManufacturedLoad {
 struct Body {
   CellType cell = CellType::quadrilateral;
   int order = 1;
-  int cells = 4;            ///< per direction
+  int cells = 4;  ///< per direction
   bool mixed = false;
   bool dynamic = false;
   Wave exact;

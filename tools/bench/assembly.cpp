@@ -57,7 +57,8 @@ struct NavierStokes {
 
 class Carrier final : public Physics {
  public:
-  Carrier(std::vector<Unknown> unknowns, std::shared_ptr<const Term> term) : unknowns_(std::move(unknowns)), term_(std::move(term)) {}
+  Carrier(std::vector<Unknown> unknowns, std::shared_ptr<const Term> term)
+      : unknowns_(std::move(unknowns)), term_(std::move(term)) {}
   [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return unknowns_; }
   void build(FieldSetup& setup) const override {
     std::vector<std::string> names;
@@ -78,7 +79,8 @@ double resident() {
   return own * 4096;
 }
 
-void run(const std::string& what, CellType cell, int n, std::vector<Unknown> unknowns, std::shared_ptr<const Term> term) {
+void run(const std::string& what, CellType cell, int n, std::vector<Unknown> unknowns,
+         std::shared_ptr<const Term> term) {
   const Communicator world;
   auto problem = std::make_unique<Problem>(world);
   {
@@ -86,7 +88,8 @@ void run(const std::string& what, CellType cell, int n, std::vector<Unknown> unk
     grid.cell = cell;
     for (int d = 0; d < topology(cell).dimension; ++d) grid.lines[d] = graded_lines(0, 1, n);
     auto data = std::make_shared<MeshData>(make_grid(grid));
-    problem->add_field("field", std::make_shared<Mesh>("box", data, world), std::make_unique<Carrier>(unknowns, term));
+    problem->add_field("field", std::make_shared<Mesh>("box", data, world),
+                       std::make_unique<Carrier>(unknowns, term));
   }
   const double before = resident();
   const Stopwatch setup;
@@ -107,9 +110,11 @@ void run(const std::string& what, CellType cell, int n, std::vector<Unknown> unk
   const double growth = world.sum(1024.0 * static_cast<double>(usage.ru_maxrss) - before);
   const double cells = static_cast<double>(problem->fields()[0].mesh->whole().cell_count());
   if (world.rank() == 0)
-    fmt::print("{}: {:.2f} us/cell on {} ranks ({:.3f} s, pattern {:.3f} s; peak growth {:.0f} MB = {:.2f} x matrix of {:.0f} MB)\n",
-               what, 1e6 * best / cells, world.size(), best, pattern_seconds, growth / 1e6, growth / matrix_bytes,
-               matrix_bytes / 1e6);
+    fmt::print(
+        "{}: {:.2f} us/cell on {} ranks ({:.3f} s, pattern {:.3f} s; peak growth {:.0f} MB = {:.2f} x matrix "
+        "of {:.0f} MB)\n",
+        what, 1e6 * best / cells, world.size(), best, pattern_seconds, growth / 1e6, growth / matrix_bytes,
+        matrix_bytes / 1e6);
 }
 
 }  // namespace
@@ -118,9 +123,10 @@ int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
   const int cube = argc > 1 ? std::atoi(argv[1]) : 32, square = argc > 2 ? std::atoi(argv[2]) : 200;
   if (square > 0)
-    run("quad4 Navier-Stokes tangent", CellType::quadrilateral, square, {{"velocity", 2, 1, 0, ""}, {"pressure", 1, 1, 0, ""}},
-        make_term(NavierStokes{}));
+    run("quad4 Navier-Stokes tangent", CellType::quadrilateral, square,
+        {{"velocity", 2, 1, 0, ""}, {"pressure", 1, 1, 0, ""}}, make_term(NavierStokes{}));
   if (cube > 0)
-    run("hex8 neo-Hookean tangent", CellType::hexahedron, cube, {{"displacement", 3, 1, 0, ""}}, make_term(NeoHookean{}));
+    run("hex8 neo-Hookean tangent", CellType::hexahedron, cube, {{"displacement", 3, 1, 0, ""}},
+        make_term(NeoHookean{}));
   MPI_Finalize();
 }

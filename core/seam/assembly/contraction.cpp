@@ -56,7 +56,8 @@ SEAM_INLINE void add_product(int rows, int columns, int depth, const double* a, 
   for (int i = 0; i < rows; i += 4) {
     double* target = c + static_cast<std::ptrdiff_t>(i) * c_stride;
     int j = 0;
-    for (; j + 8 <= columns; j += 8) add_tile<Pack8>(depth, a + i, rows, b + j, columns, target + j, c_stride);
+    for (; j + 8 <= columns; j += 8)
+      add_tile<Pack8>(depth, a + i, rows, b + j, columns, target + j, c_stride);
     if (j < columns) add_tile<Pack4>(depth, a + i, rows, b + j, columns, target + j, c_stride);
   }
 }
@@ -70,7 +71,8 @@ struct Column {
 };
 
 /// One row of weight D B_trial: the trial functions seen by one component and direction of a test function.
-SEAM_INLINE void apply_columns(const Column* columns, int count, int q, double weight, const double* d, double* row) {
+SEAM_INLINE void apply_columns(const Column* columns, int count, int q, double weight, const double* d,
+                               double* row) {
   for (int k = 0; k < count; ++k) {
     const double factor = weight * d[k];
     // Most integrands couple few of their inputs.
@@ -99,8 +101,9 @@ SEAM_VERSIONS void contract(const Contraction& work, std::vector<double>& scratc
   for (const SlotOperator& slot : work.columns)
     for (int c = 0; c < slot.components; ++c)
       for (int l = 0; l < slot.rows; ++l)
-        column[columns++] = {slot.shape + static_cast<std::ptrdiff_t>(l) * slot.stride, slot.rows * slot.stride,
-                             slot.offset + c * slot.stride - work.first_column, slot.stride};
+        column[columns++] = {slot.shape + static_cast<std::ptrdiff_t>(l) * slot.stride,
+                             slot.rows * slot.stride, slot.offset + c * slot.stride - work.first_column,
+                             slot.stride};
   const int outputs = size(work.outputs), width = work.width, points = work.points;
   int out = 0;
   for (const SlotOperator& test : work.outputs)
@@ -114,7 +117,8 @@ SEAM_VERSIONS void contract(const Contraction& work, std::vector<double>& scratc
       double* target = work.matrix +
                        static_cast<std::ptrdiff_t>(test.offset + c * test.stride) * work.matrix_stride +
                        work.first_column;
-      add_product(test.stride, width, points * test.rows, test.shape, scratch.data(), target, work.matrix_stride);
+      add_product(test.stride, width, points * test.rows, test.shape, scratch.data(), target,
+                  work.matrix_stride);
     }
 }
 

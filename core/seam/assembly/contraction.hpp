@@ -11,7 +11,7 @@ struct SlotOperator {
   int rows = 1;                   ///< 1, or the dimension for a gradient
   int stride = 0;                 ///< nodes, padded with zeros to a multiple of 4
   int components = 1;
-  int offset = 0;                 ///< first row or column in the element matrix; components are `stride` apart
+  int offset = 0;  ///< first row or column in the element matrix; components are `stride` apart
 };
 
 /// The work K += sum over points of  B_test^T (weight D) B_trial.
@@ -27,8 +27,8 @@ struct Contraction {
   int matrix_stride = 0;
 };
 
-/// Carries the work out; the innermost loop of all assembly. Compiled for several instruction sets, the best one
-/// is chosen at run time.
+/// Carries the work out; the innermost loop of all assembly. Compiled for several instruction sets, the best
+/// one is chosen at run time.
 void contract(const Contraction& work, std::vector<double>& scratch);
 
 /// y[i] += sum over j of |matrix[i][j]| x[j], for a square matrix of `size` rows.

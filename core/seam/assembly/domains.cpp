@@ -27,10 +27,12 @@ void attach_cell(ElementSide& side, const Field& field, int cell) {
   side.geometry = field.mesh().geometry(cell);
   side.diameter = field.mesh().diameter(cell);
   side.nodes.resize(field.blocks().size());
-  for (std::size_t b = 0; b < side.nodes.size(); ++b) side.nodes[b] = field.blocks()[b].space->cell_nodes(cell);
+  for (std::size_t b = 0; b < side.nodes.size(); ++b)
+    side.nodes[b] = field.blocks()[b].space->cell_nodes(cell);
 }
 
-CellDomain::CellDomain(Field& field, int degree) : field_(&field), rule_(&quadrature(field.mesh().type(), degree)) {
+CellDomain::CellDomain(Field& field, int degree)
+    : field_(&field), rule_(&quadrature(field.mesh().type(), degree)) {
   cells_.resize(field.mesh().owned_cells());
   std::iota(cells_.begin(), cells_.end(), 0);
   for (int order = 1; order <= 2; ++order)
@@ -44,7 +46,8 @@ void CellDomain::fill(int index, Element& element) const {
   element.sides.resize(1);
   ElementSide& side = element.sides[0];
   attach_cell(side, *field_, cells_[index]);
-  for (int order = 1; order <= 2; ++order) side.table[order - 1] = tables_[order - 1].points > 0 ? &tables_[order - 1] : nullptr;
+  for (int order = 1; order <= 2; ++order)
+    side.table[order - 1] = tables_[order - 1].points > 0 ? &tables_[order - 1] : nullptr;
   side.map_geometry();
   element.weight.resize(element.points);
   for (int q = 0; q < element.points; ++q) element.weight[q] = rule_->weights[q] * side.determinant[q];
@@ -75,7 +78,8 @@ FaceTables::FaceTables(const Field& field, int degree, bool with_hessian) {
                    &points[static_cast<std::size_t>(q) * cell.dimension]);
     for (int order = 1; order <= 2; ++order)
       if (uses_order(field, order))
-        tabulate(cell.type, order, points.data(), rule_->count(), with_hessian, tables_[order - 1].emplace_back());
+        tabulate(cell.type, order, points.data(), rule_->count(), with_hessian,
+                 tables_[order - 1].emplace_back());
   }
 }
 
@@ -185,7 +189,8 @@ void invert_map(const ElementSide& side, const double* position, double* guess) 
     double step = 0;
     for (int j = 0; j < dim; ++j) {
       double update = 0;
-      for (int i = 0; i < dim; ++i) update += probe.inverse_jacobian[j * dim + i] * (position[i] - probe.position[i]);
+      for (int i = 0; i < dim; ++i)
+        update += probe.inverse_jacobian[j * dim + i] * (position[i] - probe.position[i]);
       guess[j] += update;
       step = std::max(step, std::abs(update));
     }

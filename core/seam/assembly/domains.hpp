@@ -21,7 +21,7 @@ class CellDomain final : public IntegrationDomain {
 
  private:
   Field* field_;
-  std::vector<int> cells_;   ///< owned and active
+  std::vector<int> cells_;  ///< owned and active
   const Quadrature* rule_;
   ShapeTable tables_[2];
 };

@@ -28,8 +28,9 @@ void map_points(ElementSide& side, const ShapeTable& table) {
     const auto cof = cofactor(jacobian);
     const double det = determinant(jacobian, cof);
     if (!(det > 0))
-      throw Error(fmt::format("cell {} of field '{}' is turned inside out: Jacobian {:.3g} at a quadrature point",
-                              side.global_cell, side.field->name(), det));
+      throw Error(
+          fmt::format("cell {} of field '{}' is turned inside out: Jacobian {:.3g} at a quadrature point",
+                      side.global_cell, side.field->name(), det));
     side.determinant[q] = det;
     for (int j = 0; j < dim; ++j)
       for (int i = 0; i < dim; ++i)
@@ -63,7 +64,9 @@ void Element::measure_face(const CellTopology& cell, int face, const Quadrature&
   const auto& vertices = cell.faces[face];
   const int last = static_cast<int>(vertices.size()) - 1;
   for (int d = 0; d < dim; ++d) {
-    const auto x = [&](int a) { return cell.node_coordinates[static_cast<std::size_t>(vertices[a]) * dim + d]; };
+    const auto x = [&](int a) {
+      return cell.node_coordinates[static_cast<std::size_t>(vertices[a]) * dim + d];
+    };
     edge[0][d] = x(1) - x(0);
     edge[1][d] = x(last) - x(0);
   }

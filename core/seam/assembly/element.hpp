@@ -12,9 +12,9 @@ namespace seam {
 /// One side of an element: a cell, and the reference coordinates of the element's points in it.
 struct ElementSide {
   const Field* field = nullptr;
-  int global_cell = -1;             ///< number of the cell in the whole mesh, for messages
-  int face = -1;                    ///< local face, where the points lie on one
-  const double* geometry = nullptr; ///< [geometry node][dimension]
+  int global_cell = -1;              ///< number of the cell in the whole mesh, for messages
+  int face = -1;                     ///< local face, where the points lie on one
+  const double* geometry = nullptr;  ///< [geometry node][dimension]
   double diameter = 0;
   /// Local nodes of the cell in each block of the field.
   std::vector<const int*> nodes;

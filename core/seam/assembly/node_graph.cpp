@@ -6,8 +6,8 @@
 
 namespace seam {
 
-void NodeGraph::build(const Communicator& communicator, std::vector<Node> nodes, int owned, const Elements& elements,
-                      Matrix& matrix) {
+void NodeGraph::build(const Communicator& communicator, std::vector<Node> nodes, int owned,
+                      const Elements& elements, Matrix& matrix) {
   communicator_ = communicator;
   nodes_ = std::move(nodes);
   owned_ = owned;
@@ -84,7 +84,8 @@ void NodeGraph::exchange_rows(const Communicator& communicator) {
   };
   for_each_row([&](int, const long long* row) {
     for (long long k = 0; k < row[1]; ++k)
-      if (!known.contains(row[2 + 2 * k])) foreign.emplace_back(row[2 + 2 * k], static_cast<int>(row[3 + 2 * k]));
+      if (!known.contains(row[2 + 2 * k]))
+        foreign.emplace_back(row[2 + 2 * k], static_cast<int>(row[3 + 2 * k]));
   });
   std::sort(foreign.begin(), foreign.end());
   foreign.erase(std::unique(foreign.begin(), foreign.end()), foreign.end());
@@ -126,7 +127,8 @@ void NodeGraph::exchange_rows(const Communicator& communicator) {
       for (long long k = 0; k < row[1]; ++k) {
         const Place at = place(mine, known.at(row[2 + 2 * k]));
         for (long long j = 0; j < row[3 + 2 * k]; ++j)
-          received_[rank].push_back(at.first + at.row_length * static_cast<std::size_t>(i) + static_cast<std::size_t>(j));
+          received_[rank].push_back(at.first + at.row_length * static_cast<std::size_t>(i) +
+                                    static_cast<std::size_t>(j));
       }
   });
 }
@@ -156,7 +158,8 @@ void NodeGraph::allocate(Matrix& matrix) {
   for (int row = 0; row < owned_; ++row)
     for (int i = 0; i < nodes_[row].size; ++i) {
       for (std::size_t k = start_[row]; k < start_[row + 1]; ++k)
-        for (int j = 0; j < nodes_[column_[k]].size; ++j) matrix.column[next++] = nodes_[column_[k]].first + j;
+        for (int j = 0; j < nodes_[column_[k]].size; ++j)
+          matrix.column[next++] = nodes_[column_[k]].first + j;
       matrix.row_start[++r] = next;
     }
   matrix.column_global.clear();
@@ -187,7 +190,8 @@ void NodeGraph::collect_vector(std::vector<double>& local) const {
   for (std::size_t r = 0; r < in.size(); ++r) {
     std::size_t k = 0;
     for (std::size_t m = 0; m < received_unknowns_[r].size(); m += 2)
-      for (int i = 0; i < received_unknowns_[r][m + 1]; ++i) local[received_unknowns_[r][m] + i] += in[r][k++];
+      for (int i = 0; i < received_unknowns_[r][m + 1]; ++i)
+        local[received_unknowns_[r][m] + i] += in[r][k++];
   }
 }
 

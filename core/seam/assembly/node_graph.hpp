@@ -15,10 +15,10 @@ class NodeGraph {
  public:
   /// A node with active unknowns: owned ones first, then ghosts.
   struct Node {
-    int size = 0;                  ///< unknowns
+    int size = 0;  ///< unknowns
     int owner = 0;
-    int first = 0;                 ///< local number of its first unknown
-    long long equation = 0;        ///< global number of its first unknown
+    int first = 0;           ///< local number of its first unknown
+    long long equation = 0;  ///< global number of its first unknown
   };
   /// Nodes of every element, one after the other.
   struct Elements {
@@ -43,7 +43,8 @@ class NodeGraph {
       const std::size_t middle = (low + high) / 2;
       (column_[middle] <= column ? low : high) = middle;
     }
-    return {value_start_[row] + static_cast<std::size_t>(offset_[low]), static_cast<std::size_t>(row_length_[row])};
+    return {value_start_[row] + static_cast<std::size_t>(offset_[low]),
+            static_cast<std::size_t>(row_length_[row])};
   }
 
   /// Sends the rows assembled for other ranks to their owners, who add them. Collective.
@@ -60,15 +61,15 @@ class NodeGraph {
   Communicator communicator_;
   int owned_ = 0;
   std::vector<Node> nodes_;
-  std::vector<std::size_t> start_;   ///< [row node + 1] into column_ and offset_
-  std::vector<int> column_;          ///< column nodes, ascending per row
-  std::vector<int> offset_;          ///< of the block in the scalar row
+  std::vector<std::size_t> start_;  ///< [row node + 1] into column_ and offset_
+  std::vector<int> column_;         ///< column nodes, ascending per row
+  std::vector<int> offset_;         ///< of the block in the scalar row
   std::vector<std::size_t> value_start_;
   std::vector<int> row_length_;
   // Rows for other ranks.
-  std::vector<std::vector<int>> sent_nodes_;          ///< ghost row nodes, per owner
-  std::vector<std::vector<std::size_t>> received_;    ///< positions in the matrix, per sender
-  std::vector<std::vector<int>> received_unknowns_;   ///< first unknown and size pairs, per sender
+  std::vector<std::vector<int>> sent_nodes_;         ///< ghost row nodes, per owner
+  std::vector<std::vector<std::size_t>> received_;   ///< positions in the matrix, per sender
+  std::vector<std::vector<int>> received_unknowns_;  ///< first unknown and size pairs, per sender
 };
 
 }  // namespace seam

@@ -8,9 +8,9 @@
 
 namespace seam {
 
-/// Steps to try, relative to the scale on which f changes; the best one counts. With the right one, truncation and
-/// rounding are both some 1e-12 relative; a nearly incompressible body changes on a much shorter scale than its
-/// cells, and its large modulus makes the rounding of its small stresses visible.
+/// Steps to try, relative to the scale on which f changes; the best one counts. With the right one,
+/// truncation and rounding are both some 1e-12 relative; a nearly incompressible body changes on a much
+/// shorter scale than its cells, and its large modulus makes the rounding of its small stresses visible.
 inline constexpr double difference_steps[] = {1e-3, 1e-2, 1e-4, 1e-5, 1e-6};
 
 /// Derivative of f(s), a vector, at s = 0 by central differences of fourth order.

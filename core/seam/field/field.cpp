@@ -44,7 +44,8 @@ Field::Place Field::place(const std::string& unknown) const {
     if (unknowns_[u].name == unknown) return places_[u];
     names.push_back(unknowns_[u].name);
   }
-  throw Error(fmt::format("field '{}' has no unknown '{}'; it has: {}", name_, unknown, fmt::join(names, ", ")));
+  throw Error(
+      fmt::format("field '{}' has no unknown '{}'; it has: {}", name_, unknown, fmt::join(names, ", ")));
 }
 
 void Field::activate_cells(const std::vector<char>& cell_is_active) {
@@ -52,7 +53,8 @@ void Field::activate_cells(const std::vector<char>& cell_is_active) {
     std::fill(block.active.begin(), block.active.end(), 0);
     for (int c = 0; c < mesh_->cells(); ++c)
       if (cell_is_active[c])
-        for (int a = 0; a < block.space->nodes_per_cell(); ++a) block.active[block.space->cell_nodes(c)[a]] = 1;
+        for (int a = 0; a < block.space->nodes_per_cell(); ++a)
+          block.active[block.space->cell_nodes(c)[a]] = 1;
     // The owner knows every cell of its nodes; a rank's outermost ghosts do not.
     block.space->halo().update(block.active, 1);
   }

@@ -18,7 +18,8 @@ struct Unknown {
   std::string unit;
 };
 
-/// Nodal values of a block at one instant: [node][component], and their rates as the time scheme defines them.
+/// Nodal values of a block at one instant: [node][component], and their rates as the time scheme defines
+/// them.
 struct NodalState {
   std::vector<double> value, rate, second_rate;
   void resize(std::size_t n) {
@@ -28,17 +29,17 @@ struct NodalState {
   }
 };
 
-/// All unknowns of a field that share a Lagrange space. Those of a node are contiguous. The states cover every
-/// node of the mesh, active or not, so that a changing set of active unknowns leaves them in place.
+/// All unknowns of a field that share a Lagrange space. Those of a node are contiguous. The states cover
+/// every node of the mesh, active or not, so that a changing set of active unknowns leaves them in place.
 struct Block {
   std::unique_ptr<Space> space;
   int size = 0;  ///< unknowns per node
   NodalState now;
-  NodalState old;  ///< at the start of the step
-  std::vector<char> active;               ///< per local node: carries unknowns of the system
-  std::vector<char> prescribed;           ///< per unknown of a local node: its value is given,
-  std::vector<double> prescribed_value;   ///< namely this, to be reached by the end of the step
-  std::vector<int> time_order;            ///< per component
+  NodalState old;                        ///< at the start of the step
+  std::vector<char> active;              ///< per local node: carries unknowns of the system
+  std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
+  std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
+  std::vector<int> time_order;           ///< per component
 };
 
 /// A field: unknowns on a mesh.

@@ -11,8 +11,8 @@
 
 namespace seam {
 
-/// Where two or more fields meet. A type of kind "interface": built from the scene, it yields the points on which
-/// coupling terms are integrated, each with a trace (field, cell, reference coordinates) on every side.
+/// Where two or more fields meet. A type of kind "interface": built from the scene, it yields the points on
+/// which coupling terms are integrated, each with a trace (field, cell, reference coordinates) on every side.
 class Interface {
  public:
   virtual ~Interface() = default;
@@ -22,7 +22,7 @@ class Interface {
   /// @param sides the fields, in the order of fields()
   /// @param degree polynomial degree to integrate exactly
   [[nodiscard]] virtual std::shared_ptr<IntegrationDomain> build(const std::vector<Field*>& sides,
-                                                                       int degree) const = 0;
+                                                                 int degree) const = 0;
 };
 
 /// What a coupling may know of an interface: the names of its fields and of their unknowns, nothing of their

@@ -19,7 +19,7 @@ using Cube = std::array<long long, 3>;
 
 struct FaceCentre {
   double x[3] = {0, 0, 0};
-  double size = 0;   ///< of the face
+  double size = 0;  ///< of the face
 };
 
 FaceCentre centre_of(const MeshData& whole, const CellFace& face) {
@@ -49,15 +49,16 @@ class FaceFinder {
       smallest = std::min(smallest, centres_.back().size);
     }
     tolerance_ = 1e-6 * smallest;
-    for (std::size_t k = 0; k < faces.size(); ++k) by_cube_[cube(centres_[k], {0, 0, 0})].push_back(static_cast<int>(k));
+    for (std::size_t k = 0; k < faces.size(); ++k)
+      by_cube_[cube(centres_[k], {0, 0, 0})].push_back(static_cast<int>(k));
   }
   [[nodiscard]] const CellFace* find(const FaceCentre& wanted) const {
     for (int n = 0; n < 27; ++n) {
       const auto found = by_cube_.find(cube(wanted, {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}));
       if (found == by_cube_.end()) continue;
       for (const int k : found->second)
-        if (std::hypot(centres_[k].x[0] - wanted.x[0], centres_[k].x[1] - wanted.x[1], centres_[k].x[2] - wanted.x[2]) <=
-            tolerance_)
+        if (std::hypot(centres_[k].x[0] - wanted.x[0], centres_[k].x[1] - wanted.x[1],
+                       centres_[k].x[2] - wanted.x[2]) <= tolerance_)
           return &faces_[k];
     }
     return nullptr;
@@ -77,7 +78,8 @@ class FaceFinder {
 
 class MatchingDomain final : public IntegrationDomain {
  public:
-  MatchingDomain(std::vector<Field*> sides, std::vector<CellFace> faces, std::vector<RemoteCell> partners, int degree)
+  MatchingDomain(std::vector<Field*> sides, std::vector<CellFace> faces, std::vector<RemoteCell> partners,
+                 int degree)
       : sides_(std::move(sides)),
         faces_(std::move(faces)),
         partners_(std::move(partners)),
@@ -86,7 +88,8 @@ class MatchingDomain final : public IntegrationDomain {
   [[nodiscard]] std::vector<Field*> fields() const override { return sides_; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override {
-    return side == 0 ? sides_[0]->blocks()[block].space->cell_nodes(faces_[index].cell) : partners_[index].nodes[block].data();
+    return side == 0 ? sides_[0]->blocks()[block].space->cell_nodes(faces_[index].cell)
+                     : partners_[index].nodes[block].data();
   }
   [[nodiscard]] std::string description() const override {
     return fmt::format("the interface between '{}' and '{}'", sides_[0]->name(), sides_[1]->name());
@@ -118,9 +121,11 @@ void MatchingDomain::fill(int index, Element& element) const {
   partner.attach(second, *sides_[1]);
   const CellType type = sides_[1]->mesh().type();
   const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
-  std::vector<double> reference(static_cast<std::size_t>(element.points) * dim, simplex ? 1.0 / (dim + 1) : 0.5);
+  std::vector<double> reference(static_cast<std::size_t>(element.points) * dim,
+                                simplex ? 1.0 / (dim + 1) : 0.5);
   for (int q = 0; q < element.points; ++q)
-    invert_map(second, &first.position[static_cast<std::size_t>(q) * dim], &reference[static_cast<std::size_t>(q) * dim]);
+    invert_map(second, &first.position[static_cast<std::size_t>(q) * dim],
+               &reference[static_cast<std::size_t>(q) * dim]);
   for (int order = 1; order <= 2; ++order) {
     tabulate(type, order, reference.data(), element.points, true, partner_table_[order - 1]);
     second.table[order - 1] = &partner_table_[order - 1];
@@ -133,7 +138,8 @@ void MatchingDomain::fill(int index, Element& element) const {
 MatchingInterface::MatchingInterface(const Parameters& p)
     : fields_(p.names("fields")), boundaries_(p.names("boundaries")), where_(p.where()) {
   if (fields_.size() != 2) throw Error(p.where("fields"), "a matching interface lies between two fields");
-  if (boundaries_.size() != 2) throw Error(p.where("boundaries"), "a matching interface needs a boundary of each field");
+  if (boundaries_.size() != 2)
+    throw Error(p.where("boundaries"), "a matching interface needs a boundary of each field");
 }
 
 Schema MatchingInterface::schema() {
@@ -143,12 +149,14 @@ Schema MatchingInterface::schema() {
   return s;
 }
 
-std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Field*>& sides, int degree) const {
+std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Field*>& sides,
+                                                            int degree) const {
   const MeshData& first = sides[0]->mesh().whole();
   const MeshData& second = sides[1]->mesh().whole();
   const auto partners_of = second.boundaries.find(boundaries_[1]);
   if (partners_of == second.boundaries.end())
-    throw Error(where_, fmt::format("mesh '{}' has no boundary '{}'", sides[1]->mesh().name(), boundaries_[1]));
+    throw Error(where_,
+                fmt::format("mesh '{}' has no boundary '{}'", sides[1]->mesh().name(), boundaries_[1]));
   const FaceFinder finder(second, partners_of->second);
   std::vector<CellFace> faces;
   std::vector<int> partner_cells;
@@ -157,9 +165,12 @@ std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Fi
     const FaceCentre centre = centre_of(first, {sides[0]->mesh().global_cell(face.cell), face.face});
     const CellFace* partner = finder.find(centre);
     if (!partner)
-      throw Error(where_, fmt::format("the face of '{}' on boundary '{}' with centre ({}) has no matching face on boundary "
-                                      "'{}' of '{}'", fields_[0], boundaries_[0],
-                                      fmt::join(centre.x, centre.x + first.dimension, ", "), boundaries_[1], fields_[1]));
+      throw Error(
+          where_,
+          fmt::format("the face of '{}' on boundary '{}' with centre ({}) has no matching face on boundary "
+                      "'{}' of '{}'",
+                      fields_[0], boundaries_[0], fmt::join(centre.x, centre.x + first.dimension, ", "),
+                      boundaries_[1], fields_[1]));
     faces.push_back(face);
     partner_cells.push_back(partner->cell);
   }
@@ -167,9 +178,9 @@ std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Fi
 }
 
 void register_interfaces(Registry& registry) {
-  registry.add<Interface>("interface", "matching", MatchingInterface::schema(), [](const Parameters& p, const Registry&) {
-    return std::make_unique<MatchingInterface>(p);
-  });
+  registry.add<Interface>(
+      "interface", "matching", MatchingInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<MatchingInterface>(p); });
 }
 
 }  // namespace seam

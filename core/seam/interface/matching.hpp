@@ -6,14 +6,15 @@
 
 namespace seam {
 
-/// Two boundaries whose faces coincide: each face of side 0 has a partner face of side 1 with the same corners.
+/// Two boundaries whose faces coincide: each face of side 0 has a partner face of side 1 with the same
+/// corners.
 class MatchingInterface final : public Interface {
  public:
   explicit MatchingInterface(const Parameters& parameters);
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return fields_; }
   [[nodiscard]] std::shared_ptr<IntegrationDomain> build(const std::vector<Field*>& sides,
-                                                               int degree) const override;
+                                                         int degree) const override;
 
  private:
   std::vector<std::string> fields_;

@@ -31,14 +31,16 @@ std::vector<RemoteCell> fetch_cells(Field& field, const std::vector<int>& global
   for (int r = 0; r < ranks; ++r)
     for (const int global : asked[r]) {
       const int cell = local.at(global);
-      geometry[r].insert(geometry[r].end(), mesh.geometry(cell), mesh.geometry(cell) + mesh.geometry_nodes() * dim);
+      geometry[r].insert(geometry[r].end(), mesh.geometry(cell),
+                         mesh.geometry(cell) + mesh.geometry_nodes() * dim);
       geometry[r].push_back(mesh.diameter(cell));
       for (const Block& block : field.blocks())
         for (int a = 0; a < block.space->nodes_per_cell(); ++a) {
           const int node = block.space->cell_nodes(cell)[a];
           nodes[r].push_back(block.space->global_node(node));
           nodes[r].push_back(block.space->owner(node));
-          positions[r].insert(positions[r].end(), block.space->position(node), block.space->position(node) + dim);
+          positions[r].insert(positions[r].end(), block.space->position(node),
+                              block.space->position(node) + dim);
         }
     }
   const auto got_geometry = communicator.exchange(geometry);

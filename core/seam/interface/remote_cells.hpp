@@ -11,8 +11,8 @@ namespace seam {
 struct RemoteCell {
   int global_cell = -1;
   double diameter = 0;
-  std::vector<double> geometry;          ///< [geometry node][dimension]
-  std::vector<std::vector<int>> nodes;   ///< local nodes per block of the field
+  std::vector<double> geometry;         ///< [geometry node][dimension]
+  std::vector<std::vector<int>> nodes;  ///< local nodes per block of the field
 
   void attach(ElementSide& side, const Field& field) const;
 };

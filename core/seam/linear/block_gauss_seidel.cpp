@@ -18,9 +18,12 @@ class BlockGaussSeidel final : public TpetraOperator {
   BlockGaussSeidel(Teuchos::RCP<TpetraMatrix> system, std::vector<Part> parts)
       : system_(std::move(system)), parts_(std::move(parts)) {}
 
-  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override { return system_->getDomainMap(); }
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override {
+    return system_->getDomainMap();
+  }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return system_->getRangeMap(); }
-  void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha, double beta) const override {
+  void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
+             double beta) const override {
     TpetraVector solution(getDomainMap(), x.getNumVectors()), residual(x, Teuchos::Copy);
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       const Part& part = parts_[p];
@@ -52,8 +55,8 @@ class BlockGaussSeidel final : public TpetraOperator {
 /// The diagonal block of rows and columns [first, first + count) of every rank.
 Teuchos::RCP<TpetraMatrix> diagonal_block(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
                                           const EquationBlock& block) {
-  const auto map = Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), block.count, 0,
-                                              system->getComm()));
+  const auto map = Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                                              block.count, 0, system->getComm()));
   // Block-local equation numbers of all columns, ghosts included; -1 outside the block.
   Tpetra::Vector<long long, int, long long> mine(system->getDomainMap()), all(system->getColMap());
   mine.putScalar(-1);
@@ -81,7 +84,8 @@ Teuchos::RCP<TpetraMatrix> diagonal_block(const Teuchos::RCP<TpetraMatrix>& syst
         columns.push_back(number[a.column[k]]);
         values.push_back(a.value[k]);
       }
-    result->insertGlobalValues(map->getGlobalElement(r), static_cast<int>(columns.size()), values.data(), columns.data());
+    result->insertGlobalValues(map->getGlobalElement(r), static_cast<int>(columns.size()), values.data(),
+                               columns.data());
   }
   result->fillComplete(map, map);
   return result;
@@ -103,8 +107,10 @@ Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>
   return result;
 }
 
-Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
-                                                     const std::vector<EquationBlock>& blocks, bool multigrid) {
+Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
+                                                     const Matrix& a,
+                                                     const std::vector<EquationBlock>& blocks,
+                                                     bool multigrid) {
   std::vector<BlockGaussSeidel::Part> parts;
   for (const EquationBlock& block : blocks) {
     const auto matrix = blocks.size() == 1 ? system : diagonal_block(system, a, block);

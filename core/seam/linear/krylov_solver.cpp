@@ -31,13 +31,20 @@ KrylovSolver::KrylovSolver(const Parameters& p)
 KrylovSolver::~KrylovSolver() = default;
 
 Schema KrylovSolver::schema() {
-  Schema s("Flexible GMRES with algebraic multigrid or incomplete factorisation per field block, for large systems.");
+  Schema s(
+      "Flexible GMRES with algebraic multigrid or incomplete factorisation per field block, for large "
+      "systems.");
   s.number("tolerance", "Relative residual to reach").otherwise("1e-9").above(0).below(1);
-  s.integer("maximum_iterations", "Iterations after which the solve has failed").otherwise("1000").at_least(1);
+  s.integer("maximum_iterations", "Iterations after which the solve has failed")
+      .otherwise("1000")
+      .at_least(1);
   s.integer("restart", "Size of the Krylov space").otherwise("150").at_least(2);
-  s.choice("preconditioner", "Per field block: multigrid where the block suits it, or ilu everywhere", {"multigrid", "ilu"})
+  s.choice("preconditioner", "Per field block: multigrid where the block suits it, or ilu everywhere",
+           {"multigrid", "ilu"})
       .otherwise("multigrid");
-  s.number("keep", "The preconditioner is kept while iterations stay below this multiple of its first solve's; 0: never")
+  s.number(
+       "keep",
+       "The preconditioner is kept while iterations stay below this multiple of its first solve's; 0: never")
       .otherwise("1.5")
       .at_least(0);
   return s;
@@ -48,8 +55,8 @@ bool KrylovSolver::worth_keeping(const Matrix& a) const {
          preconditioner_->last_iterations <= keep_ * preconditioner_->first_iterations;
 }
 
-void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
-                              std::vector<double>& x, SolveReport& report) {
+void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                              const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
   const Stopwatch watch;
   report.new_factorisation = !worth_keeping(a);
   if (report.new_factorisation) {
@@ -63,7 +70,8 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
   const auto& matrix = preconditioner_->matrix;
   const auto solution = to_tpetra(matrix->getDomainMap(), x);
   const auto right_side = to_tpetra(matrix->getRangeMap(), b);
-  auto problem = Teuchos::rcp(new Belos::LinearProblem<double, TpetraVector, TpetraOperator>(matrix, solution, right_side));
+  auto problem = Teuchos::rcp(
+      new Belos::LinearProblem<double, TpetraVector, TpetraOperator>(matrix, solution, right_side));
   problem->setRightPrec(preconditioner_->apply);
   problem->setProblem();
   auto parameters = Teuchos::rcp(new Teuchos::ParameterList);

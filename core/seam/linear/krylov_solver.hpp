@@ -10,8 +10,8 @@
 namespace seam {
 
 /// Flexible GMRES (Belos), preconditioned by block Gauss-Seidel over the blocks of the fields; each block by
-/// smoothed aggregation (MueLu, with the rigid body modes as near-null space where the block is a vector) or by
-/// incomplete factorisation (Ifpack2). The preconditioner is kept while iteration counts stay low.
+/// smoothed aggregation (MueLu, with the rigid body modes as near-null space where the block is a vector) or
+/// by incomplete factorisation (Ifpack2). The preconditioner is kept while iteration counts stay low.
 class KrylovSolver final : public LinearSolver {
  public:
   explicit KrylovSolver(const Parameters& parameters);

@@ -12,8 +12,8 @@
 
 namespace seam {
 
-SolveReport LinearSolver::solve(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
-                                std::vector<double>& x) {
+SolveReport LinearSolver::solve(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                                const std::vector<double>& b, std::vector<double>& x) {
   SolveReport report;
   x.assign(a.rows, 0.0);
   const double size = norm(a.communicator, b);
@@ -27,10 +27,11 @@ SolveReport LinearSolver::solve(const Matrix& a, const std::vector<EquationBlock
   for (int i = 0; i < a.rows; ++i) residual[i] = b[i] - residual[i];
   report.relative_residual = norm(a.communicator, residual) / size;
   if (!(report.relative_residual <= acceptable_residual_))
-    throw SingularMatrix(fmt::format("the linear solve left a relative residual of {:.2e} (acceptable: {:.0e}) after {} "
-                                     "iterations: the system is singular or too ill-conditioned for this solver",
-                                     report.relative_residual, acceptable_residual_, report.iterations),
-                         {});
+    throw SingularMatrix(
+        fmt::format("the linear solve left a relative residual of {:.2e} (acceptable: {:.0e}) after {} "
+                    "iterations: the system is singular or too ill-conditioned for this solver",
+                    report.relative_residual, acceptable_residual_, report.iterations),
+        {});
   return report;
 }
 
@@ -41,12 +42,12 @@ double norm(const Communicator& communicator, const std::vector<double>& x) {
 }
 
 void register_linear_solvers(Registry& registry) {
-  registry.add<LinearSolver>("linear_solver", "direct", MumpsSolver::schema(), [](const Parameters& p, const Registry&) {
-    return std::make_unique<MumpsSolver>(p);
-  });
-  registry.add<LinearSolver>("linear_solver", "krylov", KrylovSolver::schema(), [](const Parameters& p, const Registry&) {
-    return std::make_unique<KrylovSolver>(p);
-  });
+  registry.add<LinearSolver>(
+      "linear_solver", "direct", MumpsSolver::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<MumpsSolver>(p); });
+  registry.add<LinearSolver>(
+      "linear_solver", "krylov", KrylovSolver::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<KrylovSolver>(p); });
 }
 
 }  // namespace seam

@@ -24,7 +24,8 @@ struct SolveReport {
 /// The matrix has no inverse. `equations` are those the factorisation failed at, as far as it knows.
 class SingularMatrix : public Error {
  public:
-  SingularMatrix(const std::string& message, std::vector<long long> at) : Error(message), equations(std::move(at)) {}
+  SingularMatrix(const std::string& message, std::vector<long long> at)
+      : Error(message), equations(std::move(at)) {}
   std::vector<long long> equations;
 };
 
@@ -38,8 +39,8 @@ class LinearSolver {
                     std::vector<double>& x);
 
  protected:
-  virtual void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
-                          std::vector<double>& x, SolveReport& report) = 0;
+  virtual void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                          const std::vector<double>& b, std::vector<double>& x, SolveReport& report) = 0;
   /// A relative residual above this is an error.
   double acceptable_residual_ = 1e-6;
 };

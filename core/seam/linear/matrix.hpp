@@ -23,17 +23,17 @@ struct Array {
 };
 
 /// A square sparse matrix distributed by rows. Equations are numbered contiguously over the ranks. The arrays
-/// are also those of a Tpetra matrix (see tpetra.hpp), which shares their memory: Tpetra accepts only memory that
-/// Kokkos has allocated. Copies share it too.
+/// are also those of a Tpetra matrix (see tpetra.hpp), which shares their memory: Tpetra accepts only memory
+/// that Kokkos has allocated. Copies share it too.
 struct Matrix {
   struct Storage;
   Communicator communicator;
-  long long first_row = 0;               ///< equation number of this rank's first row
+  long long first_row = 0;  ///< equation number of this rank's first row
   long long global_rows = 0;
-  int rows = 0;                          ///< of this rank
-  Array<std::size_t> row_start;          ///< [rows + 1]
-  Array<int> column;                     ///< local column numbers: 0 .. rows-1 are this rank's own equations
-  Array<double> value;                   ///< of the rows; then those of rows that are assembled for other ranks
+  int rows = 0;                  ///< of this rank
+  Array<std::size_t> row_start;  ///< [rows + 1]
+  Array<int> column;             ///< local column numbers: 0 .. rows-1 are this rank's own equations
+  Array<double> value;           ///< of the rows; then those of rows that are assembled for other ranks
   std::vector<long long> column_global;  ///< equation number of every local column
   /// Grows with every change of the pattern: solvers keep what depends on it alone.
   long long pattern_version = 0;
@@ -51,7 +51,7 @@ struct EquationBlock {
   int first = 0;  ///< local row
   int count = 0;  ///< local rows
   int unknowns_per_node = 1;
-  std::vector<double> coordinates;               ///< [local node][dimension], owned and active
+  std::vector<double> coordinates;                  ///< [local node][dimension], owned and active
   std::vector<std::vector<double>> near_nullspace;  ///< vectors over the block's local rows
   int dimension = 2;
 };

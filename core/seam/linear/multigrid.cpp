@@ -8,19 +8,22 @@
 namespace seam {
 namespace {
 
-Teuchos::RCP<TpetraVector> coordinates_of(const EquationBlock& block, const Teuchos::RCP<const TpetraMap>& rows) {
+Teuchos::RCP<TpetraVector> coordinates_of(const EquationBlock& block,
+                                          const Teuchos::RCP<const TpetraMap>& rows) {
   const int nodes = block.count / block.unknowns_per_node;
-  const auto map = Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), nodes, 0,
-                                              rows->getComm()));
+  const auto map = Teuchos::rcp(
+      new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), nodes, 0, rows->getComm()));
   auto result = Teuchos::rcp(new TpetraVector(map, block.dimension));
   for (int d = 0; d < block.dimension; ++d) {
     auto data = result->getDataNonConst(d);
-    for (int n = 0; n < nodes; ++n) data[n] = block.coordinates[static_cast<std::size_t>(n) * block.dimension + d];
+    for (int n = 0; n < nodes; ++n)
+      data[n] = block.coordinates[static_cast<std::size_t>(n) * block.dimension + d];
   }
   return result;
 }
 
-Teuchos::RCP<TpetraVector> near_nullspace_of(const EquationBlock& block, const Teuchos::RCP<const TpetraMap>& rows) {
+Teuchos::RCP<TpetraVector> near_nullspace_of(const EquationBlock& block,
+                                             const Teuchos::RCP<const TpetraMap>& rows) {
   const auto modes = rigid_body_modes(block);
   auto result = Teuchos::rcp(new TpetraVector(rows, modes.size()));
   for (std::size_t m = 0; m < modes.size(); ++m) {
@@ -32,7 +35,8 @@ Teuchos::RCP<TpetraVector> near_nullspace_of(const EquationBlock& block, const T
 
 }  // namespace
 
-Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix, const EquationBlock& block) {
+Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix,
+                                            const EquationBlock& block) {
   Teuchos::ParameterList parameters;
   parameters.set("verbosity", "none");
   parameters.set("multigrid algorithm", "sa");
@@ -54,7 +58,8 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
   }
   auto& user = parameters.sublist("user data");
   user.set("Coordinates", coordinates_of(block, matrix->getRowMap()));
-  if (block.unknowns_per_node == block.dimension) user.set("Nullspace", near_nullspace_of(block, matrix->getRowMap()));
+  if (block.unknowns_per_node == block.dimension)
+    user.set("Nullspace", near_nullspace_of(block, matrix->getRowMap()));
   const Teuchos::RCP<TpetraOperator> as_operator = matrix;
   return MueLu::CreateTpetraPreconditioner<double, int, long long>(as_operator, parameters);
 }

@@ -42,7 +42,8 @@ MumpsSolver::MumpsSolver(const Parameters&) : MumpsSolver() {}
 MumpsSolver::~MumpsSolver() = default;
 
 Schema MumpsSolver::schema() {
-  return Schema("Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
+  return Schema(
+      "Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
 }
 
 void MumpsSolver::analyse(const Matrix& a) {
@@ -73,8 +74,8 @@ void MumpsSolver::analyse(const Matrix& a) {
   m.mumps.a_loc = const_cast<double*>(a.value.data);
   m.run(job_analyse);
   if (m.info(1) < 0)
-    throw Error(fmt::format("MUMPS could not analyse the matrix of {} unknowns: error {} ({})", a.global_rows, m.info(1),
-                            m.info(2)));
+    throw Error(fmt::format("MUMPS could not analyse the matrix of {} unknowns: error {} ({})", a.global_rows,
+                            m.info(1), m.info(2)));
   m.pattern_version = a.pattern_version;
 }
 
@@ -89,10 +90,11 @@ void MumpsSolver::factorise(const Matrix& a) {
   }
   if (m.info(1) == -10) throw SingularMatrix("the matrix is numerically singular", {});
   if (m.info(1) == -13)
-    throw Error(fmt::format("MUMPS ran out of memory factorising {} unknowns: use `linear: krylov`", a.global_rows));
+    throw Error(
+        fmt::format("MUMPS ran out of memory factorising {} unknowns: use `linear: krylov`", a.global_rows));
   if (m.info(1) < 0)
-    throw Error(fmt::format("MUMPS could not factorise the matrix of {} unknowns: error {} ({})", a.global_rows,
-                            m.info(1), m.info(2)));
+    throw Error(fmt::format("MUMPS could not factorise the matrix of {} unknowns: error {} ({})",
+                            a.global_rows, m.info(1), m.info(2)));
   int null_pivots = m.info(28);
   if (null_pivots > 0) {
     std::vector<long long> equations;
@@ -105,7 +107,8 @@ void MumpsSolver::factorise(const Matrix& a) {
 
 void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&, const std::vector<double>& b,
                              std::vector<double>& x, SolveReport& report) {
-  if (a.global_rows >= 2147483647LL) throw Error("the direct solver is limited to 2^31 unknowns: use `linear: krylov`");
+  if (a.global_rows >= 2147483647LL)
+    throw Error("the direct solver is limited to 2^31 unknowns: use `linear: krylov`");
   const Stopwatch watch;
   if (instance_->pattern_version != a.pattern_version) analyse(a);
   factorise(a);

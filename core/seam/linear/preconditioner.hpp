@@ -6,13 +6,16 @@
 namespace seam {
 
 /// A multigrid preconditioner of one block (MueLu, smoothed aggregation).
-Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix, const EquationBlock& block);
+Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix,
+                                            const EquationBlock& block);
 
 /// An incomplete LU factorisation with one layer of overlap between ranks (Ifpack2).
 Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix);
 
 /// Forward block Gauss-Seidel over the blocks of a system.
-Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
-                                                     const std::vector<EquationBlock>& blocks, bool multigrid);
+Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
+                                                     const Matrix& a,
+                                                     const std::vector<EquationBlock>& blocks,
+                                                     bool multigrid);
 
 }  // namespace seam

@@ -32,7 +32,8 @@ Teuchos::RCP<TpetraMatrix> tpetra_view(const Matrix& a) {
   start_kokkos();
   const auto communicator = Teuchos::rcp(new Teuchos::MpiComm<int>(a.communicator.handle()));
   const auto rows = Teuchos::rcp(new TpetraMap(a.global_rows, a.rows, 0, communicator));
-  const Teuchos::ArrayView<const long long> ids(a.column_global.data(), static_cast<int>(a.column_global.size()));
+  const Teuchos::ArrayView<const long long> ids(a.column_global.data(),
+                                                static_cast<int>(a.column_global.size()));
   const auto columns = Teuchos::rcp(
       new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), ids, 0, communicator));
   const auto value = Kokkos::subview(a.storage->value, std::pair<std::size_t, std::size_t>(0, a.entries()));

@@ -24,7 +24,8 @@ struct CellTopology {
   int vertices;
   std::vector<std::array<int, 2>> edges;
   CellType face_type;                   ///< cells of dimension 2: segment; 3: triangle or quadrilateral
-  std::vector<std::vector<int>> faces;  ///< local vertices, outward normal by the right-hand rule (2D: outward is to the right of 0 -> 1)
+  std::vector<std::vector<int>> faces;  ///< local vertices, outward normal by the right-hand rule (2D:
+                                        ///< outward is to the right of 0 -> 1)
   int nodes(int order) const;           ///< number of nodes of the Lagrange element of order 1 or 2
   /// Reference coordinates of the nodes of order 2 (its first ones are those of order 1), `dimension` each.
   std::vector<double> node_coordinates;

@@ -41,7 +41,8 @@ void tensor_shapes(const CellTopology& cell, int order, const double* x, const S
   for (int a = 0; a < sink.table.nodes; ++a) {
     std::array<Jet, 3> jet{};
     for (int d = 0; d < dim; ++d)
-      jet[d] = line_function(order, line_node(cell.node_coordinates[static_cast<std::size_t>(a) * dim + d]), x[d]);
+      jet[d] =
+          line_function(order, line_node(cell.node_coordinates[static_cast<std::size_t>(a) * dim + d]), x[d]);
     // The derivative of order k[d] in each direction is the product of the one-dimensional ones.
     const auto product = [&](const std::array<int, 3>& k) {
       double value = 1.0;
@@ -95,7 +96,8 @@ void simplex_shapes(const CellTopology& cell, int order, const double* x, const 
 
 }  // namespace
 
-void tabulate(CellType type, int order, const double* points, int count, bool with_hessian, ShapeTable& table) {
+void tabulate(CellType type, int order, const double* points, int count, bool with_hessian,
+              ShapeTable& table) {
   const CellTopology& cell = topology(type);
   const int dim = cell.dimension;
   table.dimension = dim;
@@ -124,8 +126,8 @@ void face_to_cell(const CellTopology& cell, int face, const double* on_face, dou
   for (int d = 0; d < cell.dimension; ++d) {
     in_cell[d] = 0;
     for (int a = 0; a < shapes.nodes; ++a)
-      in_cell[d] +=
-          shapes.value[a] * cell.node_coordinates[static_cast<std::size_t>(cell.faces[face][a]) * cell.dimension + d];
+      in_cell[d] += shapes.value[a] *
+                    cell.node_coordinates[static_cast<std::size_t>(cell.faces[face][a]) * cell.dimension + d];
   }
 }
 

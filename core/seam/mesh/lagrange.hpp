@@ -13,13 +13,15 @@ namespace seam {
 struct ShapeTable {
   int dimension = 0;  ///< of the reference cell
   int nodes = 0;
-  int stride = 0;     ///< nodes, padded with zeros to a multiple of 4 for the assembly's vector instructions
+  int stride = 0;  ///< nodes, padded with zeros to a multiple of 4 for the assembly's vector instructions
   int points = 0;
   std::vector<double> value;     ///< [point][stride]
   std::vector<double> gradient;  ///< [point][direction][stride], with respect to reference coordinates
   std::vector<double> hessian;   ///< [point][direction][direction][stride]; empty unless asked for
 
-  [[nodiscard]] const double* value_at(int q) const { return value.data() + static_cast<std::ptrdiff_t>(q) * stride; }
+  [[nodiscard]] const double* value_at(int q) const {
+    return value.data() + static_cast<std::ptrdiff_t>(q) * stride;
+  }
   [[nodiscard]] const double* gradient_at(int q) const {
     return gradient.data() + static_cast<std::ptrdiff_t>(q) * stride * dimension;
   }
@@ -29,7 +31,8 @@ struct ShapeTable {
 };
 
 /// Tabulates the shape functions of order 1 or 2 at `points` (dimension coordinates each).
-void tabulate(CellType type, int order, const double* points, int count, bool with_hessian, ShapeTable& table);
+void tabulate(CellType type, int order, const double* points, int count, bool with_hessian,
+              ShapeTable& table);
 
 /// Maps reference coordinates on a face to those of its cell.
 /// @param on_face coordinates in the face type's reference cell, `dimension - 1` of them

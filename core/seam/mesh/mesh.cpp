@@ -43,7 +43,8 @@ void Mesh::choose_cells() {
   for (int c = 0; c < total; ++c) {
     if (owner_of_global_cell_[c] != communicator_.rank()) continue;
     global_cell_.push_back(c);
-    for (int a = 0; a < nodes_per_cell_; ++a) near[whole_->cells[static_cast<std::size_t>(c) * nodes_per_cell_ + a]] = 1;
+    for (int a = 0; a < nodes_per_cell_; ++a)
+      near[whole_->cells[static_cast<std::size_t>(c) * nodes_per_cell_ + a]] = 1;
   }
   owned_cells_ = static_cast<int>(global_cell_.size());
   for (int c = 0; c < total; ++c) {
@@ -60,7 +61,8 @@ void Mesh::copy_geometry() {
   for (const int c : global_cell_) {
     for (int a = 0; a < nodes_per_cell_; ++a) {
       const int node = whole_->cells[static_cast<std::size_t>(c) * nodes_per_cell_ + a];
-      for (int d = 0; d < dim; ++d) geometry_.push_back(whole_->coordinates[static_cast<std::size_t>(node) * dim + d]);
+      for (int d = 0; d < dim; ++d)
+        geometry_.push_back(whole_->coordinates[static_cast<std::size_t>(node) * dim + d]);
     }
     const double* x = geometry_.data() + geometry_.size() - static_cast<std::size_t>(nodes_per_cell_) * dim;
     double largest = 0;
@@ -89,7 +91,8 @@ const std::vector<CellFace>& Mesh::boundary(const std::string& boundary_name) co
   if (found != boundaries_.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& entry : boundaries_) known.push_back(entry.first);
-  throw Error(fmt::format("mesh '{}' has no boundary '{}'; it has: {}", name_, boundary_name, fmt::join(known, ", ")));
+  throw Error(fmt::format("mesh '{}' has no boundary '{}'; it has: {}", name_, boundary_name,
+                          fmt::join(known, ", ")));
 }
 
 const std::vector<Mesh::InteriorFace>& Mesh::interior_faces() const {
@@ -104,19 +107,22 @@ const std::vector<Mesh::InteriorFace>& Mesh::interior_faces() const {
     for (int f = 0; f < static_cast<int>(cell.faces.size()); ++f) {
       Key key{{-1, -1, -1, -1}, {c, f}};
       for (std::size_t a = 0; a < cell.faces[f].size(); ++a)
-        key.vertices[a] = whole_->cells[static_cast<std::size_t>(global_cell_[c]) * nodes_per_cell_ + cell.faces[f][a]];
+        key.vertices[a] =
+            whole_->cells[static_cast<std::size_t>(global_cell_[c]) * nodes_per_cell_ + cell.faces[f][a]];
       std::sort(key.vertices.begin(), key.vertices.end());
       keys.push_back(key);
     }
   std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
-    return std::pair(a.vertices, global_cell_[a.face.cell]) < std::pair(b.vertices, global_cell_[b.face.cell]);
+    return std::pair(a.vertices, global_cell_[a.face.cell]) <
+           std::pair(b.vertices, global_cell_[b.face.cell]);
   });
   for (std::size_t k = 0; k + 1 < keys.size(); ++k)
     if (keys[k].vertices == keys[k + 1].vertices && keys[k].face.cell < owned_cells_)
       interior_faces_.push_back({{keys[k].face, keys[k + 1].face}});
-  std::sort(interior_faces_.begin(), interior_faces_.end(), [&](const InteriorFace& a, const InteriorFace& b) {
-    return std::pair(a.side[0].cell, a.side[0].face) < std::pair(b.side[0].cell, b.side[0].face);
-  });
+  std::sort(interior_faces_.begin(), interior_faces_.end(),
+            [&](const InteriorFace& a, const InteriorFace& b) {
+              return std::pair(a.side[0].cell, a.side[0].face) < std::pair(b.side[0].cell, b.side[0].face);
+            });
   interior_faces_built_ = true;
   return interior_faces_;
 }

@@ -11,9 +11,9 @@
 
 namespace seam {
 
-/// The part of a mesh that one rank holds: the cells it owns, then a ghost layer of the cells that share a node
-/// with them. Every cell is owned by exactly one rank, and every rank knows the whole neighbourhood of the nodes
-/// of its own cells.
+/// The part of a mesh that one rank holds: the cells it owns, then a ghost layer of the cells that share a
+/// node with them. Every cell is owned by exactly one rank, and every rank knows the whole neighbourhood of
+/// the nodes of its own cells.
 class Mesh {
  public:
   /// Distributes `whole` by recursive coordinate bisection (Zoltan2's multijagged).
@@ -45,8 +45,8 @@ class Mesh {
   /// Local cells and their faces that carry a name. @throws Error listing the known names
   [[nodiscard]] const std::vector<CellFace>& boundary(const std::string& name) const;
   [[nodiscard]] const std::map<std::string, std::vector<CellFace>>& boundaries() const { return boundaries_; }
-  /// Faces between two local cells of which the one with the lower global number is owned: each interior face of
-  /// the whole mesh occurs on exactly one rank. Built at the first call.
+  /// Faces between two local cells of which the one with the lower global number is owned: each interior face
+  /// of the whole mesh occurs on exactly one rank. Built at the first call.
   struct InteriorFace {
     CellFace side[2];
   };

@@ -20,11 +20,11 @@ struct CellFace {
 /// geometric order. Node and cell numbers of this struct are the global numbers of the distributed mesh, so
 /// nothing that follows depends on the number of ranks.
 struct MeshData {
-  int dimension = 2;                 ///< of space; cells have the same dimension
+  int dimension = 2;  ///< of space; cells have the same dimension
   CellType type = CellType::quadrilateral;
-  int order = 1;                     ///< of the geometry: 1 or 2
-  std::vector<double> coordinates;   ///< `dimension` per node
-  std::vector<int> cells;            ///< topology(type).nodes(order) per cell, ordered as CellTopology says
+  int order = 1;                    ///< of the geometry: 1 or 2
+  std::vector<double> coordinates;  ///< `dimension` per node
+  std::vector<int> cells;           ///< topology(type).nodes(order) per cell, ordered as CellTopology says
   std::map<std::string, std::vector<CellFace>> boundaries;  ///< named sets of faces (outer or between cells)
   std::map<std::string, std::vector<int>> regions;          ///< named sets of cells
 

@@ -11,8 +11,8 @@
 
 namespace seam {
 
-std::vector<int> partition_points(int dimension, const std::vector<double>& points, const std::vector<double>& weights,
-                                  int parts) {
+std::vector<int> partition_points(int dimension, const std::vector<double>& points,
+                                  const std::vector<double>& weights, int parts) {
   const int count = static_cast<int>(points.size()) / dimension;
   std::vector<int> part(count, 0);
   if (parts == 1) return part;

@@ -9,7 +9,7 @@ namespace seam {
 /// @param points `dimension` coordinates each
 /// @param weights one per point; empty for equal weights
 /// @return the part of every point, in [0, parts)
-std::vector<int> partition_points(int dimension, const std::vector<double>& points, const std::vector<double>& weights,
-                                  int parts);
+std::vector<int> partition_points(int dimension, const std::vector<double>& points,
+                                  const std::vector<double>& weights, int parts);
 
 }  // namespace seam

@@ -105,12 +105,18 @@ Quadrature tetrahedron_rule(int degree) {
 
 Quadrature make(CellType type, int degree) {
   switch (type) {
-    case CellType::point: return {0, {}, {1.0}};
-    case CellType::segment: return tensor_rule(1, degree / 2 + 1);
-    case CellType::quadrilateral: return tensor_rule(2, degree / 2 + 1);
-    case CellType::hexahedron: return tensor_rule(3, degree / 2 + 1);
-    case CellType::triangle: return triangle_rule(degree);
-    case CellType::tetrahedron: return tetrahedron_rule(degree);
+    case CellType::point:
+      return {0, {}, {1.0}};
+    case CellType::segment:
+      return tensor_rule(1, degree / 2 + 1);
+    case CellType::quadrilateral:
+      return tensor_rule(2, degree / 2 + 1);
+    case CellType::hexahedron:
+      return tensor_rule(3, degree / 2 + 1);
+    case CellType::triangle:
+      return triangle_rule(degree);
+    case CellType::tetrahedron:
+      return tetrahedron_rule(degree);
   }
   throw std::logic_error("quadrature: unknown cell type");
 }

@@ -15,8 +15,8 @@ namespace seam {
 
 /// Volume, centre and second moments about the centre of a body, from its mesh.
 struct Moments {
-  double volume = 0;       ///< m^3 (2D: m^2)
-  double centre[3] = {};   ///< m
+  double volume = 0;         ///< m^3 (2D: m^2)
+  double centre[3] = {};     ///< m
   double second[3][3] = {};  ///< integral of (x - centre)_i (x - centre)_j, m^5 (2D: m^4)
 };
 
@@ -36,8 +36,8 @@ class FieldSetup {
   virtual void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) = 0;
   /// Prescribes a component of an unknown on a boundary, at all times.
   /// @param where place in the scene, for the error when two conditions claim the same unknown
-  virtual void prescribe(const std::string& boundary, const std::string& unknown, int component, Expression value,
-                         const Location& where) = 0;
+  virtual void prescribe(const std::string& boundary, const std::string& unknown, int component,
+                         Expression value, const Location& where) = 0;
   virtual void set_initial(const std::string& unknown, int component, Expression value) = 0;
   virtual void set_initial_rate(const std::string& unknown, int component, Expression value) = 0;
 

@@ -21,7 +21,8 @@ class Potential {
 
 /// Makes a Potential of a law that is written once, as a template on the scalar type:
 ///
-///   struct Spring { double k; template <class T> T energy(const std::array<T, 1>& x) const { return 0.5*k*x[0]*x[0]; } };
+///   struct Spring { double k; template <class T> T energy(const std::array<T, 1>& x) const { return
+///   0.5*k*x[0]*x[0]; } };
 ///
 /// Derivatives come from nested automatic differentiation.
 template <int n, class Law>

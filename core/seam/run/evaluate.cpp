@@ -17,7 +17,8 @@ namespace {
 class UnknownQuantity final : public Term {
  public:
   UnknownQuantity(int components, Shape shape, int dimension)
-      : size_(components * rows(shape, dimension)), signature_{{components}, {Slot{0, shape, Level::now}}, {}, {}, size_} {}
+      : size_(components * rows(shape, dimension)),
+        signature_{{components}, {Slot{0, shape, Level::now}}, {}, {}, size_} {}
   [[nodiscard]] const Signature& signature(int) const override { return signature_; }
   void evaluate(const PointBatch& points, double* values, double*) const override {
     std::copy_n(points.inputs, static_cast<std::ptrdiff_t>(points.count) * size_, values);
@@ -42,7 +43,8 @@ class SampleDomain final : public IntegrationDomain {
     const Mesh& mesh = entry.field->mesh();
     const int dim = std::max(1, topology(mesh.type()).dimension);
     const int points = mesh.type() == CellType::point ? 1 : static_cast<int>(reference.size()) / dim;
-    for (int order = 1; order <= 2; ++order) tabulate(mesh.type(), order, reference.data(), points, false, tables_[order - 1]);
+    for (int order = 1; order <= 2; ++order)
+      tabulate(mesh.type(), order, reference.data(), points, false, tables_[order - 1]);
   }
   [[nodiscard]] int size() const override { return static_cast<int>(cells_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {entry_.field.get()}; }
@@ -69,15 +71,16 @@ class SampleDomain final : public IntegrationDomain {
   ShapeTable tables_[2];
 };
 
-std::vector<double> integrate(const IntegrationDomain& domain, const NamedQuantity& quantity, const TimePoint& at,
-                              const Communicator& communicator) {
+std::vector<double> integrate(const IntegrationDomain& domain, const NamedQuantity& quantity,
+                              const TimePoint& at, const Communicator& communicator) {
   ElementEvaluator evaluator(domain, {bind(quantity)});
   std::vector<double> sum(quantity.components, 0.0);
   for (int e = 0; e < domain.size(); ++e) {
     const auto& values = evaluator.compute_values(e, at);
     for (int q = 0; q < evaluator.element().points; ++q)
       for (int c = 0; c < quantity.components; ++c)
-        sum[c] += evaluator.element().weight[q] * values[static_cast<std::size_t>(q) * quantity.components + c];
+        sum[c] +=
+            evaluator.element().weight[q] * values[static_cast<std::size_t>(q) * quantity.components + c];
   }
   communicator.sum(sum);
   return sum;
@@ -96,7 +99,9 @@ NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
   std::vector<std::string> known;
   for (const Unknown& unknown : entry.field->unknowns()) {
     if (unknown.name == name)
-      return {std::make_shared<UnknownQuantity>(unknown.components, Shape::value, dim), {name}, unknown.components};
+      return {std::make_shared<UnknownQuantity>(unknown.components, Shape::value, dim),
+              {name},
+              unknown.components};
     known.push_back(unknown.name);
   }
   for (const FieldQuantity& output : entry.outputs) {
@@ -105,7 +110,8 @@ NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
   }
   const std::string nearest = nearest_name(name, known);
   throw Error(fmt::format("field '{}' has no quantity '{}'{}; it has: {}", entry.name, name,
-                          nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest), fmt::join(known, ", ")));
+                          nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
+                          fmt::join(known, ", ")));
 }
 
 std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, const NamedQuantity& quantity,
@@ -117,8 +123,9 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
   const int per_cell = space.nodes_per_cell(), components = quantity.components;
   const std::vector<double> reference(
       cell.node_coordinates.begin(),
-      cell.node_coordinates.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(per_cell) * cell.dimension,
-                                                               static_cast<std::ptrdiff_t>(cell.node_coordinates.size())));
+      cell.node_coordinates.begin() +
+          std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(per_cell) * cell.dimension,
+                                   static_cast<std::ptrdiff_t>(cell.node_coordinates.size())));
   const SampleDomain domain(entry, cells, reference);
   ElementEvaluator evaluator(domain, {bind(quantity)});
   std::vector<double> sum(static_cast<std::size_t>(space.nodes()) * components, 0.0);
@@ -129,7 +136,8 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
       const int node = space.cell_nodes(c)[a];
       ++count[node];
       for (int k = 0; k < components; ++k)
-        sum[static_cast<std::size_t>(node) * components + k] += values[static_cast<std::size_t>(a) * components + k];
+        sum[static_cast<std::size_t>(node) * components + k] +=
+            values[static_cast<std::size_t>(a) * components + k];
     }
   }
   for (int node = 0; node < space.nodes(); ++node)
@@ -138,7 +146,8 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
   return sum;
 }
 
-std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity, const TimePoint& at) {
+std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity,
+                                  const TimePoint& at) {
   const CellDomain cells(*entry.field, 2 * highest_order(entry));
   return integrate(cells, quantity, at, entry.field->mesh().communicator());
 }
@@ -192,8 +201,8 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
   // A point on a border between ranks belongs to the lowest rank that has it.
   const double overall = communicator.min(best);
   if (overall > 1e-6)
-    throw Error(where, fmt::format("the point ({}) lies outside the mesh '{}' of field '{}'", fmt::join(position, ", "),
-                                   mesh.name(), entry.name));
+    throw Error(where, fmt::format("the point ({}) lies outside the mesh '{}' of field '{}'",
+                                   fmt::join(position, ", "), mesh.name(), entry.name));
   const double mine = best <= overall + 1e-10 ? communicator.rank() : communicator.size();
   if (communicator.min(mine) != communicator.rank()) cell_ = -1;
 }
@@ -232,8 +241,9 @@ std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const st
   return sum;
 }
 
-ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown, const std::vector<Expression>& exact,
-                       const std::vector<Expression>& gradient, double time) {
+ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
+                       const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
+                       double time) {
   const Field::Place place = entry.field->place(unknown);
   const Mesh& mesh = entry.field->mesh();
   const int dim = mesh.dimension();
@@ -243,7 +253,8 @@ ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown, cons
   const auto norm_of = [&](Shape shape, const std::vector<Expression>& known) {
     const int components = place.components * rows(shape, dim);
     if (static_cast<int>(known.size()) != components)
-      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown, components, known.size()));
+      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown, components,
+                              known.size()));
     ElementEvaluator evaluator(
         cells, {{std::make_shared<UnknownQuantity>(place.components, shape, dim), {Operand{0, unknown}}}});
     double square = 0;
@@ -253,7 +264,8 @@ ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown, cons
       for (int q = 0; q < element.points; ++q)
         for (int c = 0; c < components; ++c) {
           const double* x = &element.sides[0].position[static_cast<std::size_t>(q) * dim];
-          const double difference = values[static_cast<std::size_t>(q) * components + c] - known[c](x, dim, time);
+          const double difference =
+              values[static_cast<std::size_t>(q) * components + c] - known[c](x, dim, time);
           square += element.weight[q] * difference * difference;
         }
     }

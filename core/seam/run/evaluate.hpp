@@ -19,13 +19,14 @@ struct NamedQuantity {
 /// @throws Error listing the quantities the field has
 NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name);
 
-/// Values of a quantity at the nodes of a space, averaged over the cells that meet there, [local node][component].
-/// The averages are complete on the nodes of owned cells.
+/// Values of a quantity at the nodes of a space, averaged over the cells that meet there, [local
+/// node][component]. The averages are complete on the nodes of owned cells.
 std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, const NamedQuantity& quantity,
                                  const TimePoint& at);
 
 /// Integral of each component over the field's cells. Collective.
-std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity, const TimePoint& at);
+std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity,
+                                  const TimePoint& at);
 /// Integral of each component over boundaries, in the reference configuration. Collective.
 std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,
                                       const NamedQuantity& quantity, const TimePoint& at);
@@ -40,7 +41,7 @@ class ProbePoint {
                                              const TimePoint& at) const;
 
  private:
-  int cell_ = -1;   ///< local, on the rank that evaluates; -1 elsewhere
+  int cell_ = -1;  ///< local, on the rank that evaluates; -1 elsewhere
   std::vector<double> reference_;
 };
 
@@ -53,7 +54,8 @@ struct ErrorNorms {
   double l2 = 0;
   std::optional<double> h1;
 };
-ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown, const std::vector<Expression>& exact,
-                       const std::vector<Expression>& gradient, double time);
+ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
+                       const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
+                       double time);
 
 }  // namespace seam

@@ -28,7 +28,8 @@ VtuPiece piece_of(const Space& space) {
   for (int n = 0; n < space.nodes(); ++n)
     piece.points.insert(piece.points.end(), space.position(n), space.position(n) + piece.dimension);
   for (int c = 0; c < mesh.owned_cells(); ++c)
-    piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c), space.cell_nodes(c) + space.nodes_per_cell());
+    piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c),
+                              space.cell_nodes(c) + space.nodes_per_cell());
   return piece;
 }
 
@@ -74,8 +75,9 @@ FieldOutput::FieldOutput(Problem& problem, std::filesystem::path folder, double 
   MPI_Barrier(problem_.communicator().handle());
   for (const FieldEntry& entry : problem_.fields()) {
     const std::string path = series(entry.name).string();
-    series_.push_back(resume_time >= 0 && problem_.communicator().rank() == 0 ? PvdSeries::resume(path, resume_time)
-                                                                              : PvdSeries(path));
+    series_.push_back(resume_time >= 0 && problem_.communicator().rank() == 0
+                          ? PvdSeries::resume(path, resume_time)
+                          : PvdSeries(path));
   }
 }
 

@@ -16,7 +16,9 @@ class FieldOutput {
   /// Collective.
   void write(long step_number, const TimePoint& at);
   /// The time series file of a field.
-  [[nodiscard]] std::filesystem::path series(const std::string& field) const { return folder_ / (field + ".pvd"); }
+  [[nodiscard]] std::filesystem::path series(const std::string& field) const {
+    return folder_ / (field + ".pvd");
+  }
 
  private:
   Problem& problem_;

@@ -18,7 +18,8 @@ Probe::Probe(std::string name, const Parameters& p, Problem& problem)
   reaction_ = quantity_name_ == "reaction";
   try {
     if (reaction_) {
-      if (boundaries_.empty()) throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
+      if (boundaries_.empty())
+        throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
       quantity_ = find_quantity(entry, entry.field->unknowns().at(0).name);
     } else {
       quantity_ = find_quantity(entry, quantity_name_);
@@ -51,14 +52,16 @@ void Probe::record(Problem& problem, const TimePoint& at, Results& results) cons
   } else if (!component_.empty()) {
     const std::size_t c = component_[0] - 'x';
     if (c >= values.size())
-      throw Error(fmt::format("probe '{}': '{}' has {} components, no '{}'", name_, quantity_name_, values.size(), component_));
+      throw Error(fmt::format("probe '{}': '{}' has {} components, no '{}'", name_, quantity_name_,
+                              values.size(), component_));
     results.series[name_].push_back(values[c]);
   } else if (values.size() == 1) {
     results.series[name_].push_back(values[0]);
   } else {
     const auto& names = values.size() == 6 ? tensor : axes;
     for (std::size_t c = 0; c < values.size(); ++c)
-      results.series[name_ + "." + (c < names.size() ? names[c] : std::to_string(c + 1))].push_back(values[c]);
+      results.series[name_ + "." + (c < names.size() ? names[c] : std::to_string(c + 1))].push_back(
+          values[c]);
   }
 }
 

@@ -26,7 +26,7 @@ class Probe {
   std::vector<std::string> boundaries_;
   std::optional<ProbePoint> point_;
   bool reaction_ = false;
-  std::string component_;   ///< "", "x", "y", "z" or "magnitude"
+  std::string component_;  ///< "", "x", "y", "z" or "magnitude"
 };
 
 /// Appends the integrals that each field's physics declares, as `field.name`. Collective.

@@ -7,8 +7,8 @@ struct Progress {
   long step;
   double time;
   int iterations;
-  double part_done;   ///< in [0, 1]
-  double seconds;     ///< since the start
+  double part_done;  ///< in [0, 1]
+  double seconds;    ///< since the start
 };
 
 /// Writes one line to stderr: overwriting the last one on a terminal, else at most one every ten seconds.

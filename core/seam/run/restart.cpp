@@ -170,7 +170,8 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   return state;
 }
 
-std::filesystem::path latest_restart(const std::filesystem::path& folder, std::vector<std::string>& warnings) {
+std::filesystem::path latest_restart(const std::filesystem::path& folder,
+                                     std::vector<std::string>& warnings) {
   auto files = restart_files(folder);
   for (; !files.empty(); files.pop_back()) {
     try {

@@ -12,14 +12,14 @@ namespace seam {
 /// Where a run stands between two steps.
 struct RunState {
   double time = 0;
-  double step = 0;        ///< next step to try, s
+  double step = 0;  ///< next step to try, s
   long step_number = 0;
-  Results results;        ///< recorded so far
+  Results results;  ///< recorded so far
 };
 
-/// Writes the states of all fields and `state` as one file, by global node numbers, so that any number of ranks can
-/// read it. The file gets its name only when it is complete and on disk: a run that is killed while writing loses
-/// nothing but this point. Collective.
+/// Writes the states of all fields and `state` as one file, by global node numbers, so that any number of
+/// ranks can read it. The file gets its name only when it is complete and on disk: a run that is killed while
+/// writing loses nothing but this point. Collective.
 void write_restart(const std::filesystem::path& file, const Problem& problem, const RunState& state,
                    const std::string& scene_text);
 

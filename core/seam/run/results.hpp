@@ -10,8 +10,8 @@ namespace seam {
 /// Named numbers over time: probes, balances, energies. Every rank holds the same.
 struct Results {
   std::vector<double> time;
-  std::map<std::string, std::vector<double>> series;   ///< as long as `time`
-  std::map<std::string, double> once;                  ///< error norms, counts: known at the end only
+  std::map<std::string, std::vector<double>> series;  ///< as long as `time`
+  std::map<std::string, double> once;                 ///< error norms, counts: known at the end only
 
   /// Value of a series at the recorded time nearest to `at`, or of a number known at the end.
   /// @throws Error listing the nearest known name

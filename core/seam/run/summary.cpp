@@ -40,7 +40,8 @@ nlohmann::json histories(const std::vector<NewtonReport>& reports) {
     for (const NewtonIteration& i : report.history)
       steps.push_back({{"residual", i.residual},
                        {"worst", i.worst},
-                       {"increment", i.increment}, {"damping", i.damping},
+                       {"increment", i.increment},
+                       {"damping", i.damping},
                        {"linear_iterations", i.linear_iterations},
                        {"linear_residual", i.linear_residual},
                        {"space_changed", i.space_changed}});

@@ -72,16 +72,20 @@ void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std:
   face_terms_[degree].push_back({std::move(term), std::move(operands)});
 }
 
-void FieldBuilder::prescribe(const std::string& boundary, const std::string& unknown, int component, Expression value,
-                             const Location& where) {
+void FieldBuilder::prescribe(const std::string& boundary, const std::string& unknown, int component,
+                             Expression value, const Location& where) {
   const Field::Place place = entry_.field->place(unknown);
   for (const PrescribedCondition& other : entry_.conditions)
-    if (other.boundary == boundary && other.block == place.block && other.component == place.offset + component)
-      throw Error(where, fmt::format("component {} of '{}' on boundary '{}' of field '{}' is prescribed twice; the other "
-                                     "condition stands at {}", component, unknown, boundary, entry_.name,
-                                     other.where.text()));
+    if (other.boundary == boundary && other.block == place.block &&
+        other.component == place.offset + component)
+      throw Error(
+          where,
+          fmt::format("component {} of '{}' on boundary '{}' of field '{}' is prescribed twice; the other "
+                      "condition stands at {}",
+                      component, unknown, boundary, entry_.name, other.where.text()));
   entry_.conditions.push_back({boundary, unknown, place.block, place.offset + component,
-                               boundary_nodes(*entry_.field, place.block, boundary), std::move(value), where});
+                               boundary_nodes(*entry_.field, place.block, boundary), std::move(value),
+                               where});
 }
 
 void FieldBuilder::set_initial(const std::string& unknown, int component, Expression value) {
@@ -136,7 +140,8 @@ void FieldBuilder::finish() {
   for (auto& [degree, terms] : cell_terms_)
     domains_.emplace_back(std::make_shared<CellDomain>(*entry_.field, degree), std::move(terms));
   for (auto& [key, terms] : boundary_terms_)
-    domains_.emplace_back(std::make_shared<BoundaryDomain>(*entry_.field, key.first, key.second), std::move(terms));
+    domains_.emplace_back(std::make_shared<BoundaryDomain>(*entry_.field, key.first, key.second),
+                          std::move(terms));
   for (auto& [degree, terms] : face_terms_)
     domains_.emplace_back(std::make_shared<InteriorFaceDomain>(*entry_.field, degree), std::move(terms));
 }

@@ -10,7 +10,8 @@ namespace seam {
 /// Collects what a physics declares and turns it into domains of the problem.
 class FieldBuilder final : public FieldSetup {
  public:
-  FieldBuilder(FieldEntry& entry, std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains)
+  FieldBuilder(FieldEntry& entry,
+               std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains)
       : entry_(entry), domains_(domains) {}
   /// Hands the collected terms over.
   void finish();

@@ -42,7 +42,8 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
       const double relative = sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
       if (size.worst.empty() || relative > size.residual) size = {relative, name, size.increment};
       // At the rounding error of its equations an unknown's increments are noise.
-      if (relative > rounding && sums[3] > 0) size.increment = std::max(size.increment, std::sqrt(sums[2] / sums[3]));
+      if (relative > rounding && sums[3] > 0)
+        size.increment = std::max(size.increment, std::sqrt(sums[2] / sums[3]));
     }
   return size;
 }
@@ -56,13 +57,16 @@ NewtonReport Newton::solve(const TimePoint& at) {
     double factor = 1;
     if (iteration > 0) {
       if (!take(at, increment, size, factor)) {
-        report.reason = fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
+        report.reason =
+            fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
         return report;
       }
     }
     entry.damping = factor;
     entry.space_changed = problem_.update_spaces();
     if (iteration == 0 || entry.space_changed) problem_.assembler().assemble(at, true);
+    // After a renumbering the increment's rows mean nothing any more.
+    if (entry.space_changed) increment.clear();
     size = measure(increment, factor);
     entry.residual = size.residual;
     entry.worst = size.worst;
@@ -72,13 +76,15 @@ NewtonReport Newton::solve(const TimePoint& at) {
       return report;
     }
     const bool settled = size.residual <= rounding || size.increment <= options_.increment_tolerance;
-    if (size.residual <= options_.tolerance && settled && !entry.space_changed && !problem_.assembler().prescribed_pending()) {
+    if (size.residual <= options_.tolerance && settled && !entry.space_changed &&
+        !problem_.assembler().prescribed_pending()) {
       report.converged = true;
       return report;
     }
     if (iteration == options_.maximum_iterations) {
-      report.reason = fmt::format("not converged after {} iterations: relative residual {:.2e} of {}, tolerance {:.0e}",
-                                  iteration, size.residual, size.worst, options_.tolerance);
+      report.reason =
+          fmt::format("not converged after {} iterations: relative residual {:.2e} of {}, tolerance {:.0e}",
+                      iteration, size.residual, size.worst, options_.tolerance);
       return report;
     }
     SolveReport linear;
@@ -90,7 +96,8 @@ NewtonReport Newton::solve(const TimePoint& at) {
 }
 
 /// Adds the increment, or a part of it, and assembles there. False when no part is admissible.
-bool Newton::take(const TimePoint& at, const std::vector<double>& increment, const Size& size_before, double& factor) {
+bool Newton::take(const TimePoint& at, const std::vector<double>& increment, const Size& size_before,
+                  double& factor) {
   constexpr double blow_up = 1e4;
   const Problem::Snapshot before = problem_.snapshot();
   for (factor = 1; factor > 1e-3; factor /= 2) {
@@ -109,7 +116,8 @@ bool Newton::take(const TimePoint& at, const std::vector<double>& increment, con
 void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   Assembler& assembler = problem_.assembler();
   try {
-    report = solver_.solve(assembler.matrix(), assembler.equation_blocks(), assembler.right_side(), increment);
+    report =
+        solver_.solve(assembler.matrix(), assembler.equation_blocks(), assembler.right_side(), increment);
   } catch (const SingularMatrix& singular) {
     const std::string who = describe_unsupported(problem_, singular.equations);
     if (who.empty()) throw;

@@ -13,19 +13,19 @@ namespace seam {
 struct NewtonOptions {
   /// On each unknown's residual, relative to Assembler::magnitude.
   double tolerance = 1e-8;
-  /// On each unknown's last increment, relative to its change in the step. A slender body bends with forces that
-  /// are small beside those it would stretch with: there the residual alone says little.
+  /// On each unknown's last increment, relative to its change in the step. A slender body bends with forces
+  /// that are small beside those it would stretch with: there the residual alone says little.
   double increment_tolerance = 1e-5;
   int maximum_iterations = 25;
-  bool damping = true;          ///< shorten steps that lead to an inadmissible state or a much larger residual
+  bool damping = true;  ///< shorten steps that lead to an inadmissible state or a much larger residual
 };
 
 /// One iteration, as it is written to the summary.
 struct NewtonIteration {
-  double residual = 0;    ///< largest of the unknowns' relative residuals
-  std::string worst;      ///< "field.unknown" it belongs to
-  double increment = 0;   ///< largest of the unknowns' relative increments that led here
-  double damping = 1;     ///< part of the increment that was taken to get here
+  double residual = 0;   ///< largest of the unknowns' relative residuals
+  std::string worst;     ///< "field.unknown" it belongs to
+  double increment = 0;  ///< largest of the unknowns' relative increments that led here
+  double damping = 1;    ///< part of the increment that was taken to get here
   int linear_iterations = 0;
   double linear_residual = 0;
   bool space_changed = false;
@@ -33,7 +33,7 @@ struct NewtonIteration {
 
 struct NewtonReport {
   bool converged = false;
-  std::string reason;     ///< when not converged
+  std::string reason;  ///< when not converged
   std::vector<NewtonIteration> history;
   double linear_seconds = 0;
 };

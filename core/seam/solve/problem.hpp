@@ -56,7 +56,8 @@ class Problem {
 
   /// Adds a field and lets its physics declare its terms. Collective.
   /// @throws Error when two conditions claim the same unknown on the same boundary
-  Field& add_field(const std::string& name, std::shared_ptr<const Mesh> mesh, std::unique_ptr<Physics> physics);
+  Field& add_field(const std::string& name, std::shared_ptr<const Mesh> mesh,
+                   std::unique_ptr<Physics> physics);
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
   /// Called before each Newton iteration; returns true when it changed active unknowns, domains or prescribed
@@ -64,8 +65,8 @@ class Problem {
   using SpaceUpdate = std::function<bool()>;
   void add_space_update(SpaceUpdate update) { space_updates_.push_back(std::move(update)); }
 
-  /// Restricts a field to some of its cells: terms on others are left out, and nodes that only those have carry no
-  /// unknowns. Collective; rebuild the system afterwards (a SpaceUpdate returns true).
+  /// Restricts a field to some of its cells: terms on others are left out, and nodes that only those have
+  /// carry no unknowns. Collective; rebuild the system afterwards (a SpaceUpdate returns true).
   /// @param active per local cell of the field's mesh, ghosts included
   void restrict_field(FieldEntry& entry, const std::vector<char>& active);
 
@@ -84,8 +85,9 @@ class Problem {
   [[nodiscard]] bool has_rates() const;
 
   /// Sets the initial values and rates.
-  /// @param impose_prescribed let prescribed unknowns start at their value. Without it, as in a static problem, they
-  /// go there in the first step and take the interior along, so that a sudden displacement crushes no cell.
+  /// @param impose_prescribed let prescribed unknowns start at their value. Without it, as in a static
+  /// problem, they go there in the first step and take the interior along, so that a sudden displacement
+  /// crushes no cell.
   void initialise(double time, bool impose_prescribed = true);
   /// True when the scheme needs rates at the start that the scene does not give.
   [[nodiscard]] bool needs_initial_rates(double theta) const { return theta < 1 && has_rates(); }

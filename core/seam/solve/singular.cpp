@@ -18,7 +18,8 @@ double resistance(const Problem& problem, const Matrix& k, const std::vector<dou
   for (int r = 0; r < k.rows; ++r) {
     if (mode[r] == 0) continue;
     double largest = 0;
-    for (std::size_t e = k.row_start[r]; e < k.row_start[r + 1]; ++e) largest = std::max(largest, std::abs(k.value[e]));
+    for (std::size_t e = k.row_start[r]; e < k.row_start[r + 1]; ++e)
+      largest = std::max(largest, std::abs(k.value[e]));
     force += product[r] * product[r];
     scale += largest * largest * mode[r] * mode[r];
   }
@@ -28,7 +29,8 @@ double resistance(const Problem& problem, const Matrix& k, const std::vector<dou
 }
 
 /// Modes an unknown can have without resistance: a constant in each component and, for a vector, rotations.
-std::vector<std::pair<std::string, std::vector<double>>> candidate_modes(Problem& problem, const FieldEntry& entry,
+std::vector<std::pair<std::string, std::vector<double>>> candidate_modes(Problem& problem,
+                                                                         const FieldEntry& entry,
                                                                          const Unknown& unknown) {
   Assembler& assembler = problem.assembler();
   const Field::Place place = entry.field->place(unknown.name);
@@ -67,15 +69,18 @@ std::string describe_unsupported(Problem& problem, const std::vector<long long>&
       for (const auto& [name, mode] : candidate_modes(problem, entry, unknown))
         if (resistance(problem, k, mode) < 1e-10) free.push_back(name);
       if (!free.empty())
-        text += fmt::format("field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere "
-                            "or couple the field to another\n", entry.name, unknown.name, fmt::join(free, ", "));
+        text += fmt::format(
+            "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere "
+            "or couple the field to another\n",
+            entry.name, unknown.name, fmt::join(free, ", "));
     }
   if (!text.empty() || equations.empty()) return text;
   for (const EquationBlock& block : problem.assembler().equation_blocks())
     for (const long long equation : equations) {
       const long long local = equation - k.first_row - block.first;
       if (local < 0 || local >= block.count) continue;
-      const double* x = &block.coordinates[static_cast<std::size_t>(local / block.unknowns_per_node) * block.dimension];
+      const double* x =
+          &block.coordinates[static_cast<std::size_t>(local / block.unknowns_per_node) * block.dimension];
       text += fmt::format("field '{}' has no resistance at its node at ({})\n", block.field,
                           fmt::join(x, x + block.dimension, ", "));
       break;

@@ -42,12 +42,16 @@ std::vector<int> Space::global_cell_nodes(const MeshData& whole) {
   if (order_ == whole.order) return whole.cells;
 
   std::vector<int> all(static_cast<std::size_t>(count) * nodes_per_cell_);
-  const auto geometry = [&](int c, int a) { return whole.cells[static_cast<std::size_t>(c) * geometry_nodes + a]; };
+  const auto geometry = [&](int c, int a) {
+    return whole.cells[static_cast<std::size_t>(c) * geometry_nodes + a];
+  };
   for (int c = 0; c < count; ++c)
-    for (int a = 0; a < cell.vertices; ++a) all[static_cast<std::size_t>(c) * nodes_per_cell_ + a] = geometry(c, a);
+    for (int a = 0; a < cell.vertices; ++a)
+      all[static_cast<std::size_t>(c) * nodes_per_cell_ + a] = geometry(c, a);
   if (order_ == 1) return all;
 
-  // Order 2 on straight cells: one node per edge, per quadrilateral face, per quadrilateral or hexahedral cell.
+  // Order 2 on straight cells: one node per edge, per quadrilateral face, per quadrilateral or hexahedral
+  // cell.
   int slot = cell.vertices;
   std::vector<int> number;
   std::vector<std::array<int, 2>> edges;
@@ -60,14 +64,16 @@ std::vector<int> Space::global_cell_nodes(const MeshData& whole) {
   const int edge_count = static_cast<int>(cell.edges.size());
   for (int c = 0; c < count; ++c)
     for (int e = 0; e < edge_count; ++e)
-      all[static_cast<std::size_t>(c) * nodes_per_cell_ + slot + e] = number[static_cast<std::size_t>(c) * edge_count + e];
+      all[static_cast<std::size_t>(c) * nodes_per_cell_ + slot + e] =
+          number[static_cast<std::size_t>(c) * edge_count + e];
   slot += edge_count;
 
   if (cell.face_type == CellType::quadrilateral) {
     std::vector<std::array<int, 4>> faces;
     for (int c = 0; c < count; ++c)
       for (const auto& face : cell.faces) {
-        std::array<int, 4> key{geometry(c, face[0]), geometry(c, face[1]), geometry(c, face[2]), geometry(c, face[3])};
+        std::array<int, 4> key{geometry(c, face[0]), geometry(c, face[1]), geometry(c, face[2]),
+                               geometry(c, face[3])};
         std::sort(key.begin(), key.end());
         faces.push_back(key);
       }
@@ -75,11 +81,13 @@ std::vector<int> Space::global_cell_nodes(const MeshData& whole) {
     const int face_count = static_cast<int>(cell.faces.size());
     for (int c = 0; c < count; ++c)
       for (int f = 0; f < face_count; ++f)
-        all[static_cast<std::size_t>(c) * nodes_per_cell_ + slot + f] = number[static_cast<std::size_t>(c) * face_count + f];
+        all[static_cast<std::size_t>(c) * nodes_per_cell_ + slot + f] =
+            number[static_cast<std::size_t>(c) * face_count + f];
     slot += face_count;
   }
   if (slot < nodes_per_cell_)
-    for (int c = 0; c < count; ++c) all[static_cast<std::size_t>(c) * nodes_per_cell_ + slot] = global_bound_++;
+    for (int c = 0; c < count; ++c)
+      all[static_cast<std::size_t>(c) * nodes_per_cell_ + slot] = global_bound_++;
   return all;
 }
 
@@ -94,7 +102,8 @@ void Space::number_locally(const std::vector<int>& all_cell_nodes) {
   const int rank = mesh_->communicator().rank();
   std::vector<int> present;
   for (int c = 0; c < mesh_->cells(); ++c) {
-    const auto first = all_cell_nodes.begin() + static_cast<std::ptrdiff_t>(mesh_->global_cell(c)) * nodes_per_cell_;
+    const auto first =
+        all_cell_nodes.begin() + static_cast<std::ptrdiff_t>(mesh_->global_cell(c)) * nodes_per_cell_;
     present.insert(present.end(), first, first + nodes_per_cell_);
   }
   cell_nodes_ = present;
@@ -127,7 +136,8 @@ void Space::place_nodes() {
 
 void Space::build_halo() {
   halo_ = Halo(mesh_->communicator(), owned_nodes_, {global_.begin() + owned_nodes_, global_.end()},
-               {owner_.begin() + owned_nodes_, owner_.end()}, [&](int global) { return local_of_global_.at(global); });
+               {owner_.begin() + owned_nodes_, owner_.end()},
+               [&](int global) { return local_of_global_.at(global); });
 }
 
 int Space::local_node(int global) const {

@@ -20,8 +20,8 @@ struct Fad {
     for (int i = 0; i < n; ++i) d[i] = T(0.0);
   }
   template <class S>
-    requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>)
-  Fad(S value) : Fad(T(static_cast<double>(value))) {}
+  requires(std::is_arithmetic_v<S> && !std::is_same_v<S, T>) Fad(S value)
+      : Fad(T(static_cast<double>(value))) {}
   /// Input number i.
   Fad(const T& value, int i) : Fad(value) { d[i] = T(1.0); }
 

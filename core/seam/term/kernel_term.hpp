@@ -56,16 +56,26 @@ struct Read {
   static constexpr Level level = l;
   static constexpr int size(int dim) { return O::components(dim) * rows(s, dim); }
 };
-template <class O> using Value = Read<O, Shape::value>;
-template <class O> using Gradient = Read<O, Shape::gradient>;
-template <class O> using NormalDerivative = Read<O, Shape::normal_derivative>;
-template <class O> using SecondNormalDerivative = Read<O, Shape::second_normal_derivative>;
-template <class O> using Rate = Read<O, Shape::value, Level::rate>;
-template <class O> using RateGradient = Read<O, Shape::gradient, Level::rate>;
-template <class O> using SecondRate = Read<O, Shape::value, Level::second_rate>;
-template <class O> using OldValue = Read<O, Shape::value, Level::old>;
-template <class O> using OldGradient = Read<O, Shape::gradient, Level::old>;
-template <class O> using OldRate = Read<O, Shape::value, Level::old_rate>;
+template <class O>
+using Value = Read<O, Shape::value>;
+template <class O>
+using Gradient = Read<O, Shape::gradient>;
+template <class O>
+using NormalDerivative = Read<O, Shape::normal_derivative>;
+template <class O>
+using SecondNormalDerivative = Read<O, Shape::second_normal_derivative>;
+template <class O>
+using Rate = Read<O, Shape::value, Level::rate>;
+template <class O>
+using RateGradient = Read<O, Shape::gradient, Level::rate>;
+template <class O>
+using SecondRate = Read<O, Shape::value, Level::second_rate>;
+template <class O>
+using OldValue = Read<O, Shape::value, Level::old>;
+template <class O>
+using OldGradient = Read<O, Shape::gradient, Level::old>;
+template <class O>
+using OldRate = Read<O, Shape::value, Level::old_rate>;
 
 /// A list of reads; knows where each stands in the flat array of a point.
 template <class... R>
@@ -82,7 +92,9 @@ struct Slots {
   }
   static std::vector<Slot> list() { return {Slot{R::operand::index, R::shape, R::level}...}; }
   template <class F>
-  static void for_each(F&& f) { (f(R{}), ...); }
+  static void for_each(F&& f) {
+    (f(R{}), ...);
+  }
 };
 
 /// Where the term is evaluated. Geometry is of type G: double where the domain is fixed.
@@ -101,16 +113,46 @@ template <int dim, class T, class Reads>
 struct Trial {
   const T* data;
 
-  template <class O> auto value(O) const { return load<Value<O>>(); }
-  template <class O> auto gradient(O) const { return load<Gradient<O>>(); }
-  template <class O> auto normal_derivative(O) const { return load<NormalDerivative<O>>(); }
-  template <class O> auto second_normal_derivative(O) const { return load<SecondNormalDerivative<O>>(); }
-  template <class O> auto rate(O) const { return load<Rate<O>>(); }
-  template <class O> auto rate_gradient(O) const { return load<RateGradient<O>>(); }
-  template <class O> auto second_rate(O) const { return load<SecondRate<O>>(); }
-  template <class O> auto old_value(O) const { return load<OldValue<O>>(); }
-  template <class O> auto old_gradient(O) const { return load<OldGradient<O>>(); }
-  template <class O> auto old_rate(O) const { return load<OldRate<O>>(); }
+  template <class O>
+  auto value(O) const {
+    return load<Value<O>>();
+  }
+  template <class O>
+  auto gradient(O) const {
+    return load<Gradient<O>>();
+  }
+  template <class O>
+  auto normal_derivative(O) const {
+    return load<NormalDerivative<O>>();
+  }
+  template <class O>
+  auto second_normal_derivative(O) const {
+    return load<SecondNormalDerivative<O>>();
+  }
+  template <class O>
+  auto rate(O) const {
+    return load<Rate<O>>();
+  }
+  template <class O>
+  auto rate_gradient(O) const {
+    return load<RateGradient<O>>();
+  }
+  template <class O>
+  auto second_rate(O) const {
+    return load<SecondRate<O>>();
+  }
+  template <class O>
+  auto old_value(O) const {
+    return load<OldValue<O>>();
+  }
+  template <class O>
+  auto old_gradient(O) const {
+    return load<OldGradient<O>>();
+  }
+  template <class O>
+  auto old_rate(O) const {
+    return load<OldRate<O>>();
+  }
 
  private:
   template <class R>
@@ -162,10 +204,22 @@ template <int dim, class T, class Tests>
 struct Test {
   T* data;
 
-  template <class O> auto value(O) { return at<Value<O>>(); }
-  template <class O> auto gradient(O) { return at<Gradient<O>>(); }
-  template <class O> auto normal_derivative(O) { return at<NormalDerivative<O>>(); }
-  template <class O> auto second_normal_derivative(O) { return at<SecondNormalDerivative<O>>(); }
+  template <class O>
+  auto value(O) {
+    return at<Value<O>>();
+  }
+  template <class O>
+  auto gradient(O) {
+    return at<Gradient<O>>();
+  }
+  template <class O>
+  auto normal_derivative(O) {
+    return at<NormalDerivative<O>>();
+  }
+  template <class O>
+  auto second_normal_derivative(O) {
+    return at<SecondNormalDerivative<O>>();
+  }
 
  private:
   template <class R>
@@ -180,7 +234,8 @@ template <class Reads, class Tests>
 Signature signature_of(Reads, Tests, int dim) {
   Signature s{{}, Reads::list(), Tests::list(), {}, 0};
   const auto note = [&]<class R>(R) {
-    if (R::operand::index >= static_cast<int>(s.components.size())) s.components.resize(R::operand::index + 1, 1);
+    if (R::operand::index >= static_cast<int>(s.components.size()))
+      s.components.resize(R::operand::index + 1, 1);
     s.components[R::operand::index] = R::operand::components(dim);
   };
   Reads::for_each(note);
@@ -213,11 +268,16 @@ Point<dim> point(const PointBatch& b, int q) {
 template <class Kernel>
 class KernelTerm final : public Term {
  public:
-  /// @param extra_degree polynomial degree of coefficients, such as a body force, on top of the shape functions'
+  /// @param extra_degree polynomial degree of coefficients, such as a body force, on top of the shape
+  /// functions'
   explicit KernelTerm(Kernel kernel, int extra_degree = 0)
-      : kernel_(std::move(kernel)), extra_degree_(extra_degree), signatures_{detail::signature_of(Reads{}, Tests{}, 2), detail::signature_of(Reads{}, Tests{}, 3)} {}
+      : kernel_(std::move(kernel)),
+        extra_degree_(extra_degree),
+        signatures_{detail::signature_of(Reads{}, Tests{}, 2), detail::signature_of(Reads{}, Tests{}, 3)} {}
 
-  [[nodiscard]] const Signature& signature(int dimension) const override { return signatures_[dimension - 2]; }
+  [[nodiscard]] const Signature& signature(int dimension) const override {
+    return signatures_[dimension - 2];
+  }
   [[nodiscard]] int extra_degree() const override { return extra_degree_; }
   void evaluate(const PointBatch& points, double* residual, double* tangent) const override {
     if (points.dimension == 2)
@@ -278,16 +338,14 @@ class KernelTerm final : public Term {
         for (int i = 0; i < R::size(dim); ++i) {
           input[from + i] = points.inputs[q * in + from + i];
           if constexpr (first >= 0)
-            input[from + i].d[first + i] =
-                points.level_factor[R::operand::index][static_cast<int>(R::level)];
+            input[from + i].d[first + i] = points.level_factor[R::operand::index][static_cast<int>(R::level)];
         }
       });
       Test<dim, T, Tests> test{output};
       kernel_.template operator()<dim, T>(detail::point<dim>(points, q), Trial<dim, T, Reads>{input}, test);
       for (int i = 0; i < out; ++i) {
         residual[q * out + i] = output[i].v;
-        for (int j = 0; j < columns; ++j)
-          tangent[(q * out + i) * columns + j] = output[i].d[j];
+        for (int j = 0; j < columns; ++j) tangent[(q * out + i) * columns + j] = output[i].d[j];
       }
     }
   }
@@ -309,13 +367,16 @@ std::shared_ptr<const Term> make_term(Kernel kernel, int extra_degree = 0) {
 ///     using Reads = seam::Slots<seam::Gradient<u>>;
 ///     static constexpr int values(int) { return 1; }
 ///     template <int dim>
-///     void operator()(const seam::Point<dim>&, const seam::Trial<dim, double, Reads>& s, double* value) const;
+///     void operator()(const seam::Point<dim>&, const seam::Trial<dim, double, Reads>& s, double* value)
+///     const;
 ///   };
 template <class Kernel>
 class KernelQuantity final : public Term {
  public:
   explicit KernelQuantity(Kernel kernel) : kernel_(std::move(kernel)), signatures_{make(2), make(3)} {}
-  [[nodiscard]] const Signature& signature(int dimension) const override { return signatures_[dimension - 2]; }
+  [[nodiscard]] const Signature& signature(int dimension) const override {
+    return signatures_[dimension - 2];
+  }
   void evaluate(const PointBatch& points, double* values, double*) const override {
     if (points.dimension == 2)
       evaluate_in<2>(points, values);

@@ -52,8 +52,7 @@ struct Promote {
   using type = A;
 };
 template <class B>
-  requires(!std::is_same_v<B, double>)
-struct Promote<double, B> {
+requires(!std::is_same_v<B, double>) struct Promote<double, B> {
   using type = B;
 };
 template <class A, class B>

@@ -10,8 +10,8 @@ namespace seam {
 /// How an unknown (or a test function) enters at a point.
 enum class Shape { value, gradient, normal_derivative, second_normal_derivative };
 
-/// Which of an unknown's states enters. The differentiated ones depend on the unknown through the time scheme;
-/// the old ones are those at the start of the step.
+/// Which of an unknown's states enters. The differentiated ones depend on the unknown through the time
+/// scheme; the old ones are those at the start of the step.
 enum class Level { now, rate, second_rate, old, old_rate };
 
 /// One of the unknowns a term speaks of, and where it lives.
@@ -68,8 +68,8 @@ struct PointBatch {
   const double (*level_factor)[3] = nullptr;
 };
 
-/// An integrand: coefficients of the test functions at a point and their derivatives. Implement it by writing a
-/// kernel and wrapping it in KernelTerm (seam/term/kernel_term.hpp).
+/// An integrand: coefficients of the test functions at a point and their derivatives. Implement it by writing
+/// a kernel and wrapping it in KernelTerm (seam/term/kernel_term.hpp).
 class Term {
  public:
   virtual ~Term() = default;
