@@ -79,8 +79,8 @@ double resident() {
   return own * 4096;
 }
 
-void run(const std::string& what, CellType cell, int n, std::vector<Unknown> unknowns,
-         std::shared_ptr<const Term> term) {
+void run(const std::string& what, CellType cell, int n, const std::vector<Unknown>& unknowns,
+         const std::shared_ptr<const Term>& term) {
   const Communicator world;
   auto problem = std::make_unique<Problem>(world);
   {

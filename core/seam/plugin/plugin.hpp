@@ -12,6 +12,7 @@
 #include "seam/plugin/descriptor.hpp"
 #include "seam/plugin/registry.hpp"
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the argument is the name of a parameter.
 // The note is an exported symbol, so that no linker drops it as unused.
 #define SEAM_PLUGIN(registry)                                                                                \
   extern "C" {                                                                                               \
@@ -27,3 +28,4 @@
                                                                    .fingerprint = SEAM_FINGERPRINT,          \
                                                                    .provides = SEAM_PLUGIN_PROVIDES}};       \
   void seam_plugin_declare(seam::Registry& registry)
+// NOLINTEND(bugprone-macro-parentheses)

@@ -92,8 +92,8 @@ nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes
   if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum ||
       length > bytes.size() - fixed - sizeof sum)
     throw damaged();
-  const auto header = nlohmann::json::parse(bytes.begin() + fixed,
-                                            bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length));
+  auto header = nlohmann::json::parse(bytes.begin() + fixed,
+                                      bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length));
   payload = reinterpret_cast<const double*>(bytes.data() + fixed + length);
   count = (bytes.size() - fixed - length - sizeof sum) / sizeof(double);
   return header;

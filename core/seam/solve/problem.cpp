@@ -23,7 +23,7 @@ std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& bu
 
 }  // namespace
 
-Field& Problem::add_field(const std::string& name, std::shared_ptr<const Mesh> mesh,
+Field& Problem::add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
                           std::unique_ptr<Physics> physics) {
   FieldEntry& entry = fields_.emplace_back();
   entry.name = name;

@@ -56,7 +56,7 @@ class Problem {
 
   /// Adds a field and lets its physics declare its terms. Collective.
   /// @throws Error when two conditions claim the same unknown on the same boundary
-  Field& add_field(const std::string& name, std::shared_ptr<const Mesh> mesh,
+  Field& add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
                    std::unique_ptr<Physics> physics);
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
