@@ -49,7 +49,7 @@ Result test_material(const std::string& material, const std::string& options) {
   const auto scene = std::filesystem::temp_directory_path() /
                      ("seam_wrong_" + std::to_string(std::random_device{}()) + ".yaml");
   std::ofstream(scene) << text;
-  const Result result = run_kit(SEAM_WRONG_PLUGIN " --scene " + scene.string() + " " + options);
+  Result result = run_kit(SEAM_WRONG_PLUGIN " --scene " + scene.string() + " " + options);
   std::filesystem::remove(scene);
   INFO(result.output);
   CHECK(result.code == 1);

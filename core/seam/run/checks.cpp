@@ -23,7 +23,7 @@ double tolerance(const Parameters& check, double reference) {
     used = 0;
   }
   const std::string rest = used == 0 ? "?" : text.substr(used);
-  if ((rest != "" && rest != "%") || value < 0)
+  if ((!rest.empty() && rest != "%") || value < 0)
     throw Error(check.where("within"),
                 fmt::format("`within: {}` is no deviation; write it as 0.1% or as a plain number", text));
   return rest == "%" ? value / 100 * std::abs(reference) : value;

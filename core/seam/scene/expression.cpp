@@ -112,7 +112,7 @@ void compile(mu::Parser& parser, const std::string& text, const std::map<std::st
     parser.Eval();
     if (parser.GetNumResults() != 1) fail(text, "it has several results; expected one, without ','");
   } catch (const mu::Parser::exception_type& e) {
-    const std::string token = e.GetToken();
+    const std::string& token = e.GetToken();
     const bool variable =
         std::find(variable_names.begin(), variable_names.end(), token) != variable_names.end();
     if (!variables && variable && e.GetCode() == mu::ecUNASSIGNABLE_TOKEN) {

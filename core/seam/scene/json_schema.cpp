@@ -37,7 +37,7 @@ json map_of(json values) { return {{"type", "object"}, {"additionalProperties", 
 json object_schema(const Schema& schema);
 
 json value_schema(const Parameter& p) {
-  const json word{{"type", "string"}, {"minLength", 1}};
+  json word{{"type", "string"}, {"minLength", 1}};
   switch (p.kind) {
     case ValueKind::boolean:
       return {{"type", "boolean"}};
