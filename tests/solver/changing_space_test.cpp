@@ -31,13 +31,13 @@ TEST_CASE("unknowns that come alive between two iterations join the solution", "
   std::vector<long long> sizes;
   std::vector<double> kept;
   int call = 0;
-  problem->add_space_update([&] {
+  problem->add_space_update([&](const TimePoint&) {
     // The domain grows from half to three quarters in iteration 2: a decision of the state alone.
     const double front = call < 2 ? 0.5 : 0.75;
     const bool changed = call == 0 || call == 2;
     if (call == 2) kept.push_back(value_near(entry, 0.25));
     ++call;
-    if (changed) problem->restrict_field(entry, left_of(*entry.mesh, front));
+    if (changed) problem->occupy(entry, left_of(*entry.mesh, front));
     return changed;
   });
   problem->finish();
@@ -54,9 +54,9 @@ TEST_CASE("unknowns that come alive between two iterations join the solution", "
   // The same final domain from the start gives the same solution.
   auto fresh = test::diffusion_problem(cell, 8, options);
   bool first = true;
-  fresh->add_space_update([&] {
+  fresh->add_space_update([&](const TimePoint&) {
     if (!std::exchange(first, false)) return false;
-    fresh->restrict_field(fresh->fields()[0], left_of(*fresh->fields()[0].mesh, 0.75));
+    fresh->occupy(fresh->fields()[0], left_of(*fresh->fields()[0].mesh, 0.75));
     return true;
   });
   fresh->finish();
@@ -71,9 +71,9 @@ TEST_CASE("unknowns that go leave the others and their values in place", "[ranks
   FieldEntry& entry = problem->fields()[0];
   double front = 2;
   bool changed = false;
-  problem->add_space_update([&] {
+  problem->add_space_update([&](const TimePoint&) {
     if (!std::exchange(changed, false)) return false;
-    problem->restrict_field(entry, left_of(*entry.mesh, front));
+    problem->occupy(entry, left_of(*entry.mesh, front));
     return true;
   });
   problem->finish();

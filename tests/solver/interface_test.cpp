@@ -59,6 +59,16 @@ std::shared_ptr<const Mesh> half(CellType cell, double from, double to, int n) {
   return std::make_shared<Mesh>("half", std::make_shared<MeshData>(make_grid(grid)), Communicator());
 }
 
+/// For an interface that needs neither cuts nor meshes of the scene.
+struct PlainSetup final : InterfaceSetup {
+  PlainSetup(std::vector<Field*> fields, int polynomial_degree) {
+    sides = std::move(fields);
+    degree = polynomial_degree;
+  }
+  FieldCut& cut(int) override { throw std::logic_error("nothing is cut here"); }
+  std::shared_ptr<const MeshData> mesh(const std::string&) override { return nullptr; }
+};
+
 /// Bodies [0, 1] and [1, 2] with c = 0 and c = 1 at the far ends.
 std::unique_ptr<Problem> two_bodies(CellType cell, int order) {
   auto problem = std::make_unique<Problem>(Communicator());
@@ -68,7 +78,8 @@ std::unique_ptr<Problem> two_bodies(CellType cell, int order) {
   Parameters p;
   p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
   p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
-  problem->add_coupling(MatchingInterface(p).build(sides, 2 * order),
+  PlainSetup setup(sides, 2 * order);
+  problem->add_coupling(MatchingInterface(p).build(setup),
                         {{make_term(Transfer{4.0}), {{0, "c"}, {1, "c"}}}});
   problem->finish();
   problem->initialise(0, false);
@@ -134,7 +145,8 @@ TEST_CASE("faces without a partner are named") {
   Parameters p;
   p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
   p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
+  PlainSetup setup(sides, 2);
   CHECK_THROWS_WITH(
-      MatchingInterface(p).build(sides, 2),
+      MatchingInterface(p).build(setup),
       Catch::Contains("face of 'left' on boundary 'x_max'") && Catch::Contains("no matching face"));
 }

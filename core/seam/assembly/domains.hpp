@@ -1,27 +1,44 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
+#include <string>
 #include <vector>
 
 #include "seam/assembly/element.hpp"
+#include "seam/physics/physics.hpp"
 
 namespace seam {
 
-/// The owned cells of a field, or those of them that are active. All share one quadrature.
+/// Shape functions at the points of one part of a cut cell, one table per order of the field's spaces.
+struct CutTables {
+  int cell = -1;
+  int face = -1;               ///< local face, for parts of the boundary
+  std::vector<double> weight;  ///< [point], physical
+  ShapeTable table[2];
+  /// @param reference [point][dimension]
+  void fill(const Field& field, const std::vector<double>& reference, bool with_hessian);
+  void attach(ElementSide& side) const;
+};
+
+/// The owned active cells of a field: whole ones share one quadrature, cut ones have their own.
 class CellDomain final : public IntegrationDomain {
  public:
-  CellDomain(Field& field, int degree);
-  [[nodiscard]] int size() const override { return static_cast<int>(cells_.size()); }
+  enum class Cells { all, uncut };
+  CellDomain(Field& field, int degree, Cells cells = Cells::all);
+  [[nodiscard]] int size() const override { return static_cast<int>(whole_.size() + cut_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
-  void restrict_to(const Field& field, const std::vector<char>& active) override;
+  void update(const Field& field) override;
 
  private:
+  [[nodiscard]] int cell(int index) const;
   Field* field_;
-  std::vector<int> cells_;  ///< owned and active
+  int degree_;
+  Cells cells_;
+  std::vector<int> whole_;
+  std::vector<CutTables> cut_;  ///< numbered after the whole ones
   const Quadrature* rule_;
   ShapeTable tables_[2];
 };
@@ -32,51 +49,77 @@ class FaceTables {
   FaceTables(const Field& field, int degree, bool with_hessian);
   [[nodiscard]] const Quadrature& rule() const { return *rule_; }
   void attach(ElementSide& side) const;
+  /// Tables of the second cell of a face at the points of the first one's, by how the two see the face.
+  void attach_partner(ElementSide& side, int orientation) const;
+  /// How the second of two cells sees their common face: which of its vertices is the first cell's first, and
+  /// whether they follow in reverse.
+  /// @param first, second local nodes of the cells, vertices first
+  static int orientation(const CellTopology& cell, const int* first, int first_face, const int* second,
+                         int second_face);
 
  private:
+  void tabulate_partners(const Field& field, bool with_hessian);
+  CellType type_;
   const Quadrature* rule_;
-  std::vector<ShapeTable> tables_[2];
+  std::vector<ShapeTable> tables_[2];                 ///< [face]
+  std::vector<std::vector<ShapeTable>> partners_[2];  ///< [face][orientation]
 };
 
-/// Faces of a field's cells that carry a name; this rank evaluates those of its owned cells.
+/// Faces of a field's active cells that carry a name; this rank evaluates those of its owned cells. Of a cut
+/// cell's face only the wet part counts.
 class BoundaryDomain final : public IntegrationDomain {
  public:
   BoundaryDomain(Field& field, const std::string& boundary, int degree);
 
-  [[nodiscard]] int size() const override { return static_cast<int>(faces_.size()); }
+  [[nodiscard]] int size() const override { return static_cast<int>(whole_.size() + cut_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
-  void restrict_to(const Field& field, const std::vector<char>& active) override;
+  void update(const Field& field) override;
 
  private:
   Field* field_;
   std::string boundary_;
-  std::vector<CellFace> all_faces_, faces_;
+  int degree_;
+  std::vector<CellFace> whole_;
+  std::vector<CutTables> cut_;  ///< numbered after the whole ones
   FaceTables tables_;
 };
 
-/// Faces between two cells of a field: side 0 is the cell with the lower global number.
+/// Whole faces between two active cells of a field: side 0 is the cell with the lower global number.
 class InteriorFaceDomain final : public IntegrationDomain {
  public:
-  InteriorFaceDomain(Field& field, int degree);
+  enum class Faces {
+    all,
+    ghost,     ///< at least one of the cells is cut
+    wet_ghost  ///< and part of the face lies in the fluid
+  };
+  InteriorFaceDomain(Field& field, int degree, Faces faces = Faces::all);
   [[nodiscard]] int size() const override { return static_cast<int>(faces_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_, field_}; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
-  void restrict_to(const Field& field, const std::vector<char>& active) override;
+  void update(const Field& field) override;
 
  private:
+  [[nodiscard]] bool belongs(const Mesh::InteriorFace& face) const;
+  struct OrientedFace {
+    CellFace side[2];
+    int orientation;
+  };
   Field* field_;
-  std::vector<Mesh::InteriorFace> faces_;
+  Faces choice_;
+  std::vector<OrientedFace> faces_;
   FaceTables tables_;
-  mutable ShapeTable partner_[2];
 };
 
 /// Points `side` at a local cell of its field.
 void attach_cell(ElementSide& side, const Field& field, int cell);
+
+/// True where some space of the field, or its mesh, has this order.
+bool uses_order(const Field& field, int order);
 
 /// Reference coordinates in a cell of points given in space, by Newton's method.
 /// @param guess start value and result, [dimension]

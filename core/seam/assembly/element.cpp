@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/term/tensor.hpp"
@@ -57,7 +58,7 @@ void ElementSide::map_geometry() {
   }
 }
 
-void Element::measure_face(const CellTopology& cell, int face, const Quadrature& rule) {
+void Element::measure_face(const CellTopology& cell, int face, const std::vector<double>& weights) {
   const int dim = dimension;
   // Area vector of the reference face: its edges' cross product (2D: the edge turned by -90 degrees).
   double edge[2][3] = {{0, 0, 0}, {0, 0, 0}}, area[3] = {0, 0, 0};
@@ -92,8 +93,15 @@ void Element::measure_face(const CellTopology& cell, int face, const Quadrature&
     }
     length = std::sqrt(length);
     for (int i = 0; i < dim; ++i) normal[static_cast<std::size_t>(q) * dim + i] /= length;
-    weight[q] = rule.weights[q] * length;
+    weight[q] = weights[q] * length;
   }
+}
+
+double Element::measure() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
+
+void Element::set_sizes(double cell, double trace) {
+  cell_size.assign(points, cell);
+  trace_size.assign(points, trace);
 }
 
 }  // namespace seam

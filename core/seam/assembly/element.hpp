@@ -38,10 +38,15 @@ struct Element {
   std::vector<double> weight;     ///< [point], m^d or m^(d-1)
   std::vector<double> normal;     ///< [point][dimension], outward from side 0; empty for cells
   std::vector<double> cell_size;  ///< [point]
+  std::vector<double> trace_size;  ///< [point], see Point
   std::vector<ElementSide> sides;
 
-  /// Fills weight and normal of points on a face of side 0's cell.
-  void measure_face(const CellTopology& cell, int face, const Quadrature& rule);
+  /// Fills weight and normal of points on a face of side 0's cell. @param weights of the reference face
+  void measure_face(const CellTopology& cell, int face, const std::vector<double>& weights);
+  /// Sum of the weights.
+  [[nodiscard]] double measure() const;
+  /// Sets cell_size and trace_size of all points.
+  void set_sizes(double cell, double trace);
 };
 
 /// A set of elements on which a list of terms is integrated. This rank evaluates each of its elements; all
@@ -57,8 +62,8 @@ class IntegrationDomain {
   virtual void fill(int index, Element& element) const = 0;
   /// Local nodes of one side's cell in one block, without the cost of fill().
   [[nodiscard]] virtual const int* nodes(int index, int side, int block) const = 0;
-  /// Leaves only elements all of whose cells are active. @param active per local cell of the field's mesh
-  virtual void restrict_to(const Field& field, const std::vector<char>& active) { (void)field, (void)active; }
+  /// Finds the elements anew after this field's active cells, or the bodies that cut them, have changed.
+  virtual void update(const Field& field) { (void)field; }
   /// For messages: "cells of field 'water'".
   [[nodiscard]] virtual std::string description() const = 0;
 };

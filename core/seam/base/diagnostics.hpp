@@ -35,6 +35,12 @@ class Error : public std::runtime_error {
   Error(const Location& where, const std::string& message);
 };
 
+/// A step that cannot be taken as it is, but perhaps a shorter one: it is rewound and halved.
+class StepRefused : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Collects errors and warnings, so that several are reported at once.
 class Diagnostics {
  public:

@@ -35,20 +35,23 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 bool same_bits(const Problem::Snapshot& a, const Problem::Snapshot& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const NodalState& x, const NodalState& y) {
-    return same_bits(x.value, y.value) && same_bits(x.rate, y.rate) &&
-           same_bits(x.second_rate, y.second_rate);
+  using State = Problem::BlockSnapshot;
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const State& x, const State& y) {
+    return same_bits(x.now.value, y.now.value) && same_bits(x.now.rate, y.now.rate) &&
+           same_bits(x.now.second_rate, y.now.second_rate) && x.known == y.known;
   });
 }
 
 /// Largest difference of two states, over the largest value.
 double relative_difference(const Problem::Snapshot& a, const Problem::Snapshot& b) {
   double difference = 0, largest = 0;
-  for (std::size_t s = 0; s < std::min(a.size(), b.size()); ++s)
-    for (std::size_t i = 0; i < std::min(a[s].value.size(), b[s].value.size()); ++i) {
-      difference = std::max(difference, std::abs(a[s].value[i] - b[s].value[i]));
-      largest = std::max(largest, std::abs(a[s].value[i]));
+  for (std::size_t s = 0; s < std::min(a.size(), b.size()); ++s) {
+    const auto &first = a[s].now.value, &second = b[s].now.value;
+    for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
+      difference = std::max(difference, std::abs(first[i] - second[i]));
+      largest = std::max(largest, std::abs(first[i]));
     }
+  }
   return largest > 0 ? difference / largest : difference;
 }
 

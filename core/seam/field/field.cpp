@@ -4,11 +4,12 @@
 #include <fmt/ranges.h>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/cut/cut_mesh.hpp"
 
 namespace seam {
 
 Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns)
-    : name_(std::move(name)), mesh_(&mesh), unknowns_(std::move(unknowns)) {
+    : name_(std::move(name)), mesh_(&mesh), unknowns_(std::move(unknowns)), active_cells_(mesh.cells(), 1) {
   for (const Unknown& unknown : unknowns_) {
     int b = 0;
     while (b < static_cast<int>(blocks_.size()) && blocks_[b].space->order() != unknown.order) ++b;
@@ -29,6 +30,7 @@ void Field::resize(Block& block) {
   block.now.resize(n);
   block.old.resize(n);
   block.active.resize(block.space->nodes(), 1);
+  block.known.resize(block.space->nodes(), 1);
   block.prescribed.resize(n, 0);
   block.prescribed_value.resize(n, 0.0);
 }
@@ -48,16 +50,31 @@ Field::Place Field::place(const std::string& unknown) const {
       fmt::format("field '{}' has no unknown '{}'; it has: {}", name_, unknown, fmt::join(names, ", ")));
 }
 
-void Field::activate_cells(const std::vector<char>& cell_is_active) {
+double Field::constant(const std::string& name) const {
+  const auto found = constants_.find(name);
+  if (found != constants_.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& entry : constants_) names.push_back(entry.first);
+  throw Error(
+      fmt::format("field '{}' has no constant '{}'; it has: {}", name_, name, fmt::join(names, ", ")));
+}
+
+void Field::occupy(std::vector<char> cell_is_active, const CutMesh* cut) {
+  active_cells_ = std::move(cell_is_active);
+  cut_ = cut;
   for (Block& block : blocks_) {
     std::fill(block.active.begin(), block.active.end(), 0);
     for (int c = 0; c < mesh_->cells(); ++c)
-      if (cell_is_active[c])
+      if (active_cells_[c])
         for (int a = 0; a < block.space->nodes_per_cell(); ++a)
           block.active[block.space->cell_nodes(c)[a]] = 1;
     // The owner knows every cell of its nodes; a rank's outermost ghosts do not.
     block.space->halo().update(block.active, 1);
   }
+}
+
+bool Field::is_cut(int cell) const {
+  return cut_ && active_cells_[cell] && cut_->state(cell) == CellState::cut;
 }
 
 }  // namespace seam

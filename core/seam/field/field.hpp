@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include "seam/space/space.hpp"
 
 namespace seam {
+
+class CutMesh;
 
 /// What a physics declares of one of its unknowns.
 struct Unknown {
@@ -37,6 +40,8 @@ struct Block {
   NodalState now;
   NodalState old;                        ///< at the start of the step
   std::vector<char> active;              ///< per local node: carries unknowns of the system
+  std::vector<char> known;               ///< per local node: its states mean something; they are carried over
+                                         ///< when a moving body leaves or enters its cells
   std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
   std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
   std::vector<int> time_order;           ///< per component
@@ -58,15 +63,25 @@ class Field {
   [[nodiscard]] const std::vector<Unknown>& unknowns() const { return unknowns_; }
   /// @throws Error listing the field's unknowns
   [[nodiscard]] Place place(const std::string& unknown) const;
+  /// A constant that the field's physics makes known, such as "viscosity".
+  /// @throws Error listing those it has
+  [[nodiscard]] double constant(const std::string& name) const;
+  void set_constant(const std::string& name, double value) { constants_[name] = value; }
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
   /// Collective. Makes nodes of other ranks' cells known here, for an interface (see Space::add_foreign).
   void add_foreign(int block, const std::vector<Space::ForeignNode>& nodes);
 
-  /// Makes a node active exactly where one of these local cells has it (collective: every rank names those of
-  /// its owned and ghost cells that are active).
-  void activate_cells(const std::vector<char>& cell_is_active);
+  /// Restricts the field to some of its cells: a node is active exactly where one of them has it. Collective.
+  /// @param cell_is_active per local cell, ghosts included
+  /// @param cut how bodies cut these cells; null where active cells are whole. Must outlive its use.
+  void occupy(std::vector<char> cell_is_active, const CutMesh* cut = nullptr);
+  /// Per local cell.
+  [[nodiscard]] const std::vector<char>& active_cells() const { return active_cells_; }
+  [[nodiscard]] const CutMesh* cut() const { return cut_; }
+  /// True when this local cell is active and only partly occupied.
+  [[nodiscard]] bool is_cut(int cell) const;
 
  private:
   static void resize(Block& block);
@@ -74,7 +89,10 @@ class Field {
   const Mesh* mesh_;
   std::vector<Unknown> unknowns_;
   std::vector<Place> places_;
+  std::map<std::string, double> constants_;
   std::vector<Block> blocks_;
+  std::vector<char> active_cells_;
+  const CutMesh* cut_ = nullptr;
 };
 
 }  // namespace seam

@@ -11,6 +11,22 @@
 
 namespace seam {
 
+class FieldCut;
+struct MeshData;
+
+/// What the core hands to an interface when a scene is built.
+class InterfaceSetup {
+ public:
+  virtual ~InterfaceSetup() = default;
+  /// The fields, in the order of Interface::fields().
+  std::vector<Field*> sides;
+  int degree = 2;  ///< polynomial degree to integrate exactly
+  /// The bodies that cut the mesh of a side's field; one can be added.
+  [[nodiscard]] virtual FieldCut& cut(int side) = 0;
+  /// A mesh of the scene.
+  [[nodiscard]] virtual std::shared_ptr<const MeshData> mesh(const std::string& name) = 0;
+};
+
 /// Where two or more fields meet. A type of kind "interface": built from the scene, it yields the points on
 /// which coupling terms are integrated, each with a trace (field, cell, reference coordinates) on every side.
 class Interface {
@@ -19,10 +35,7 @@ class Interface {
   /// Names of the fields on its sides, side 0 first.
   [[nodiscard]] virtual std::vector<std::string> fields() const = 0;
   /// Finds the pieces of the interface. Collective.
-  /// @param sides the fields, in the order of fields()
-  /// @param degree polynomial degree to integrate exactly
-  [[nodiscard]] virtual std::shared_ptr<IntegrationDomain> build(const std::vector<Field*>& sides,
-                                                                 int degree) const = 0;
+  [[nodiscard]] virtual std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const = 0;
 };
 
 /// What a coupling may know of an interface: the names of its fields and of their unknowns, nothing of their

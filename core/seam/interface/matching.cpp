@@ -9,6 +9,7 @@
 #include <map>
 
 #include "seam/assembly/domains.hpp"
+#include "seam/cut/cut_interface.hpp"
 #include "seam/interface/remote_cells.hpp"
 
 namespace seam {
@@ -114,8 +115,8 @@ void MatchingDomain::fill(int index, Element& element) const {
   first.face = faces_[index].face;
   tables_.attach(first);
   first.map_geometry();
-  element.measure_face(topology(mesh.type()), first.face, tables_.rule());
-  element.cell_size.assign(element.points, first.diameter);
+  element.measure_face(topology(mesh.type()), first.face, tables_.rule().weights);
+  element.set_sizes(first.diameter, mesh.volume(faces_[index].cell) / element.measure());
 
   const RemoteCell& partner = partners_[index];
   partner.attach(second, *sides_[1]);
@@ -149,8 +150,8 @@ Schema MatchingInterface::schema() {
   return s;
 }
 
-std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Field*>& sides,
-                                                            int degree) const {
+std::shared_ptr<IntegrationDomain> MatchingInterface::build(InterfaceSetup& setup) const {
+  const std::vector<Field*>& sides = setup.sides;
   const MeshData& first = sides[0]->mesh().whole();
   const MeshData& second = sides[1]->mesh().whole();
   const auto partners_of = second.boundaries.find(boundaries_[1]);
@@ -174,13 +175,17 @@ std::shared_ptr<IntegrationDomain> MatchingInterface::build(const std::vector<Fi
     faces.push_back(face);
     partner_cells.push_back(partner->cell);
   }
-  return std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells), degree);
+  return std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells),
+                                          setup.degree);
 }
 
 void register_interfaces(Registry& registry) {
   registry.add<Interface>(
       "interface", "matching", MatchingInterface::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<MatchingInterface>(p); });
+  registry.add<Interface>(
+      "interface", "cut", CutInterface::schema(),
+      [](const Parameters& p, const Registry& types) { return std::make_unique<CutInterface>(p, types); });
 }
 
 }  // namespace seam

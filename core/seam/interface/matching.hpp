@@ -13,8 +13,7 @@ class MatchingInterface final : public Interface {
   explicit MatchingInterface(const Parameters& parameters);
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return fields_; }
-  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(const std::vector<Field*>& sides,
-                                                         int degree) const override;
+  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
 
  private:
   std::vector<std::string> fields_;
@@ -22,7 +21,7 @@ class MatchingInterface final : public Interface {
   Location where_;
 };
 
-/// Registers "matching".
+/// Registers "matching" and "cut".
 void register_interfaces(Registry& registry);
 
 }  // namespace seam

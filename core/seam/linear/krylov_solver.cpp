@@ -3,10 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <BelosBlockGmresSolMgr.hpp>
-#include <BelosTpetraAdapter.hpp>
-
 #include "seam/base/stopwatch.hpp"
+#include "seam/linear/gmres.hpp"
 #include "seam/linear/preconditioner.hpp"
 
 namespace seam {
@@ -67,26 +65,8 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
   }
   report.setup_seconds = watch.seconds();
 
-  const auto& matrix = preconditioner_->matrix;
-  const auto solution = to_tpetra(matrix->getDomainMap(), x);
-  const auto right_side = to_tpetra(matrix->getRangeMap(), b);
-  auto problem = Teuchos::rcp(
-      new Belos::LinearProblem<double, TpetraVector, TpetraOperator>(matrix, solution, right_side));
-  problem->setRightPrec(preconditioner_->apply);
-  problem->setProblem();
-  auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
-  parameters->set("Flexible Gmres", true);
-  parameters->set("Convergence Tolerance", tolerance_);
-  parameters->set("Maximum Iterations", maximum_iterations_);
-  parameters->set("Num Blocks", restart_);
-  parameters->set("Maximum Restarts", maximum_iterations_ / restart_ + 1);
-  parameters->set("Explicit Residual Scaling", "Norm of RHS");
-  parameters->set("Implicit Residual Scaling", "Norm of RHS");
-  parameters->set("Verbosity", 0);
-  Belos::BlockGmresSolMgr<double, TpetraVector, TpetraOperator> gmres(problem, parameters);
-  gmres.solve();
-  from_tpetra(*solution, x);
-  report.iterations = gmres.getNumIters();
+  report.iterations = gmres(preconditioner_->matrix, preconditioner_->apply, b, x,
+                            {tolerance_, maximum_iterations_, restart_});
   preconditioner_->last_iterations = report.iterations;
   if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);
 }

@@ -7,11 +7,15 @@
 #include <algorithm>
 
 #include "seam/base/stopwatch.hpp"
+#include "seam/linear/gmres.hpp"
 
 namespace seam {
 namespace {
 
 // MUMPS' job codes.
+/// Small enough for Newton's method to converge as with exact solutions.
+constexpr double kept_tolerance = 1e-10;
+
 constexpr int job_begin = -1, job_end = -2, job_analyse = 1, job_factorise = 2, job_solve = 3;
 
 }  // namespace
@@ -20,6 +24,8 @@ struct MumpsSolver::Instance {
   DMUMPS_STRUC_C mumps{};
   std::vector<int> row, column;
   long long pattern_version = -1;
+  bool factorised = false;
+  int last_iterations = 0;  ///< of the last system the factors preconditioned
   bool begun = false;
 
   // MUMPS' manual counts its control arrays from 1.
@@ -30,6 +36,16 @@ struct MumpsSolver::Instance {
     mumps.job = job;
     dmumps_c(&mumps);
   }
+  /// @return the whole solution, on every rank. Right-hand side and solution pass through rank 0: they are
+  /// small beside the factors.
+  std::vector<double> solve(const Communicator& communicator, const std::vector<double>& b) {
+    std::vector<double> all = communicator.gather_all(b);
+    mumps.rhs = all.data();
+    run(job_solve);
+    if (info(1) < 0) throw Error(fmt::format("MUMPS could not solve: error {} ({})", info(1), info(2)));
+    MPI_Bcast(all.data(), static_cast<int>(all.size()), MPI_DOUBLE, 0, communicator.handle());
+    return all;
+  }
   ~Instance() {
     int finalised = 0;
     MPI_Finalized(&finalised);
@@ -37,13 +53,39 @@ struct MumpsSolver::Instance {
   }
 };
 
-MumpsSolver::MumpsSolver() : instance_(std::make_unique<Instance>()) {}
-MumpsSolver::MumpsSolver(const Parameters&) : MumpsSolver() {}
+/// The inverse of a matrix factorised earlier, as a preconditioner of a later one.
+class MumpsSolver::KeptFactors final : public TpetraOperator {
+ public:
+  KeptFactors(std::shared_ptr<Instance> instance, Teuchos::RCP<const TpetraMap> map, Communicator communicator)
+      : instance_(std::move(instance)), map_(std::move(map)), communicator_(communicator) {}
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override { return map_; }
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return map_; }
+  void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double, double) const override {
+    std::vector<double> in;
+    from_tpetra(x, in);
+    const std::vector<double> all = instance_->solve(communicator_, in);
+    auto out = y.getDataNonConst(0);
+    std::copy_n(all.begin() + map_->getMinGlobalIndex(), in.size(), out.begin());
+  }
+
+ private:
+  std::shared_ptr<Instance> instance_;
+  Teuchos::RCP<const TpetraMap> map_;
+  Communicator communicator_;
+};
+
+MumpsSolver::MumpsSolver() : instance_(std::make_shared<Instance>()) {}
+MumpsSolver::MumpsSolver(const Parameters& p) : MumpsSolver() { keep_ = static_cast<int>(p.integer("keep")); }
 MumpsSolver::~MumpsSolver() = default;
 
 Schema MumpsSolver::schema() {
-  return Schema(
-      "Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
+  Schema s("Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
+  s.integer("keep",
+            "A factorisation is kept as preconditioner of later systems with the same pattern while they take "
+            "at most so many iterations; 0: each system is factorised")
+      .otherwise("0")
+      .at_least(0);
+  return s;
 }
 
 void MumpsSolver::analyse(const Matrix& a) {
@@ -109,19 +151,38 @@ void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&,
                              std::vector<double>& x, SolveReport& report) {
   if (a.global_rows >= 2147483647LL)
     throw Error("the direct solver is limited to 2^31 unknowns: use `linear: krylov`");
+  if (worth_keeping(a) && solve_with_kept(a, b, x, report)) return;
   const Stopwatch watch;
   if (instance_->pattern_version != a.pattern_version) analyse(a);
+  instance_->factorised = false;
   factorise(a);
+  instance_->factorised = true;
+  instance_->last_iterations = 0;
+  report.new_factorisation = true;
   report.setup_seconds = watch.seconds();
-
-  // Right-hand side and solution pass through rank 0: small beside the factors.
-  std::vector<double> all = a.communicator.gather_all(b);
-  Instance& m = *instance_;
-  m.mumps.rhs = all.data();
-  m.run(job_solve);
-  if (m.info(1) < 0) throw Error(fmt::format("MUMPS could not solve: error {} ({})", m.info(1), m.info(2)));
-  MPI_Bcast(all.data(), static_cast<int>(all.size()), MPI_DOUBLE, 0, a.communicator.handle());
+  const std::vector<double> all = instance_->solve(a.communicator, b);
   std::copy_n(all.begin() + a.first_row, a.rows, x.begin());
+}
+
+bool MumpsSolver::worth_keeping(const Matrix& a) const {
+  return instance_->factorised && instance_->pattern_version == a.pattern_version &&
+         instance_->last_iterations <= keep_ && keep_ > 0;
+}
+
+/// @return false when it took too many iterations: then the factors are too old
+bool MumpsSolver::solve_with_kept(const Matrix& a, const std::vector<double>& b, std::vector<double>& x,
+                                  SolveReport& report) {
+  const auto matrix = tpetra_view(a);
+  const auto factors =
+      Teuchos::rcp(new KeptFactors(instance_, matrix->getDomainMap(), a.communicator));
+  // Half as many again as are worth it: to finish is cheaper then than to begin anew.
+  const GmresOptions options{kept_tolerance, 3 * keep_ / 2 + 1, 3 * keep_ / 2 + 1};
+  report.iterations = gmres(matrix, factors, b, x, options);
+  report.new_factorisation = false;
+  instance_->last_iterations = report.iterations;
+  if (report.iterations < options.maximum_iterations) return true;
+  std::fill(x.begin(), x.end(), 0.0);
+  return false;
 }
 
 }  // namespace seam

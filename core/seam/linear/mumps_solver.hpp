@@ -25,9 +25,14 @@ class MumpsSolver final : public LinearSolver {
 
  private:
   struct Instance;
+  class KeptFactors;
   void analyse(const Matrix& a);
   void factorise(const Matrix& a);
-  std::unique_ptr<Instance> instance_;
+  [[nodiscard]] bool worth_keeping(const Matrix& a) const;
+  bool solve_with_kept(const Matrix& a, const std::vector<double>& b, std::vector<double>& x,
+                       SolveReport& report);
+  std::shared_ptr<Instance> instance_;
+  int keep_ = 0;  ///< most iterations that are worth a factorisation
 };
 
 }  // namespace seam

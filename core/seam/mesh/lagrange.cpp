@@ -3,6 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+
+#include "seam/mesh/quadrature.hpp"
+#include "seam/term/tensor.hpp"
 
 namespace seam {
 namespace {
@@ -129,6 +133,41 @@ void face_to_cell(const CellTopology& cell, int face, const double* on_face, dou
       in_cell[d] += shapes.value[a] *
                     cell.node_coordinates[static_cast<std::size_t>(cell.faces[face][a]) * cell.dimension + d];
   }
+}
+
+namespace {
+
+template <int dim>
+double integrate_jacobian(const Quadrature& rule, const ShapeTable& table, const double* nodes) {
+  double volume = 0;
+  for (int q = 0; q < table.points; ++q) {
+    Mat<dim, dim, double> jacobian;
+    for (int a = 0; a < table.nodes; ++a)
+      for (int i = 0; i < dim; ++i)
+        for (int j = 0; j < dim; ++j)
+          jacobian(i, j) += table.gradient_at(q)[j * table.stride + a] * nodes[a * dim + i];
+    volume += rule.weights[q] * determinant(jacobian);
+  }
+  return volume;
+}
+
+/// Shape functions at the points of a rule that integrates the Jacobian of a cell exactly.
+const ShapeTable& jacobian_table(CellType type, int order) {
+  static thread_local std::map<std::pair<CellType, int>, ShapeTable> tables;
+  ShapeTable& table = tables[{type, order}];
+  const Quadrature& rule = quadrature(type, 3 * order);
+  if (table.points == 0) tabulate(type, order, rule.points.data(), rule.count(), false, table);
+  return table;
+}
+
+}  // namespace
+
+double cell_volume(CellType type, int order, const double* nodes) {
+  if (type == CellType::point) return 0;
+  const Quadrature& rule = quadrature(type, 3 * order);
+  const ShapeTable& table = jacobian_table(type, order);
+  return table.dimension == 2 ? integrate_jacobian<2>(rule, table, nodes)
+                              : integrate_jacobian<3>(rule, table, nodes);
 }
 
 }  // namespace seam

@@ -39,4 +39,9 @@ void tabulate(CellType type, int order, const double* points, int count, bool wi
 /// @param in_cell result, `dimension` of them
 void face_to_cell(const CellTopology& cell, int face, const double* on_face, double* in_cell);
 
+/// Volume of a cell, m^dimension; negative when it is turned inside out, 0 for a point.
+/// @param order of the geometry
+/// @param nodes [geometry node][dimension]
+double cell_volume(CellType type, int order, const double* nodes);
+
 }  // namespace seam

@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/mesh/lagrange.hpp"
 #include "seam/mesh/partition.hpp"
+#include "seam/mesh/quadrature.hpp"
 
 namespace seam {
 
@@ -73,6 +75,7 @@ void Mesh::copy_geometry() {
         largest = std::max(largest, square);
       }
     diameter_.push_back(std::sqrt(largest));
+    volume_.push_back(cell_volume(type(), order(), x));
   }
 }
 

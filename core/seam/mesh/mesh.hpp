@@ -41,6 +41,8 @@ class Mesh {
   [[nodiscard]] int geometry_nodes() const { return nodes_per_cell_; }
   /// Largest distance between two vertices, m.
   [[nodiscard]] double diameter(int cell) const { return diameter_[cell]; }
+  /// m^dimension.
+  [[nodiscard]] double volume(int cell) const { return volume_[cell]; }
 
   /// Local cells and their faces that carry a name. @throws Error listing the known names
   [[nodiscard]] const std::vector<CellFace>& boundary(const std::string& name) const;
@@ -71,6 +73,7 @@ class Mesh {
   std::vector<int> global_cell_;
   std::vector<double> geometry_;
   std::vector<double> diameter_;
+  std::vector<double> volume_;
   std::map<std::string, std::vector<CellFace>> boundaries_;
   mutable std::vector<InteriorFace> interior_faces_;
   mutable bool interior_faces_built_ = false;

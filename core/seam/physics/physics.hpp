@@ -20,6 +20,10 @@ struct Moments {
   double second[3][3] = {};  ///< integral of (x - centre)_i (x - centre)_j, m^5 (2D: m^4)
 };
 
+/// Which faces carry a ghost penalty (thesis (3.5), Remark 3.3): those between two active cells of which at
+/// least one is cut; `wet` leaves out faces that lie inside a body altogether.
+enum class GhostFaces { all, wet };
+
 /// What a physics hands to the core when a scene is built. Names of unknowns are the field's own; names of
 /// boundaries are the mesh's.
 class FieldSetup {
@@ -28,12 +32,28 @@ class FieldSetup {
   [[nodiscard]] virtual int dimension() const = 0;
   [[nodiscard]] virtual const std::string& field_name() const = 0;
 
+  /// Names of the mesh's boundaries.
+  [[nodiscard]] virtual std::vector<std::string> boundaries() const = 0;
+  /// The coordinate (0, 1, 2) that is constant on a boundary; -1 when there is none.
+  [[nodiscard]] virtual int boundary_axis(const std::string& boundary) const = 0;
+  /// Makes a constant of the physics known to couplings (Field::constant): a density, a viscosity.
+  virtual void publish(const std::string& constant, double value) = 0;
+
   /// Adds a term over all cells. @param operands the unknowns the kernel's operands 0, 1, ... stand for
   virtual void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
+  /// The same, only over cells that no body cuts: for residual-based stabilisation.
+  virtual void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
   virtual void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                  std::vector<std::string> operands) = 0;
   /// Adds a term over the faces between two cells; its operands name a side (0 or 1) each.
   virtual void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) = 0;
+  /// The same over the faces of cut cells only, for ghost penalties.
+  virtual void add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
+                                   std::vector<Operand> operands) = 0;
+  /// Fixes the level of a scalar unknown that the equations determine only up to a constant: gives it this
+  /// value at one node of each connected part of the domain that does not reach one of these boundaries.
+  virtual void fix_level(const std::string& unknown, double value,
+                         std::vector<std::string> open_boundaries) = 0;
   /// Prescribes a component of an unknown on a boundary, at all times.
   /// @param where place in the scene, for the error when two conditions claim the same unknown
   virtual void prescribe(const std::string& boundary, const std::string& unknown, int component,

@@ -58,7 +58,7 @@ class SampleDomain final : public IntegrationDomain {
     element.sides[0].map_geometry();
     element.weight.assign(element.points, 1.0);
     element.normal.clear();
-    element.cell_size.assign(element.points, element.sides[0].diameter);
+    element.set_sizes(element.sides[0].diameter, element.sides[0].diameter);
   }
   [[nodiscard]] const int* nodes(int index, int, int block) const override {
     return entry_.field->blocks()[block].space->cell_nodes(cells_[index]);
@@ -118,8 +118,9 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
                                  const TimePoint& at) {
   const Mesh& mesh = entry.field->mesh();
   const CellTopology& cell = topology(mesh.type());
-  std::vector<int> cells(mesh.cells());
-  std::iota(cells.begin(), cells.end(), 0);
+  std::vector<int> cells;
+  for (int c = 0; c < mesh.cells(); ++c)
+    if (entry.field->active_cells()[c]) cells.push_back(c);
   const int per_cell = space.nodes_per_cell(), components = quantity.components;
   const std::vector<double> reference(
       cell.node_coordinates.begin(),
@@ -130,10 +131,10 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
   ElementEvaluator evaluator(domain, {bind(quantity)});
   std::vector<double> sum(static_cast<std::size_t>(space.nodes()) * components, 0.0);
   std::vector<int> count(space.nodes(), 0);
-  for (int c = 0; c < mesh.cells(); ++c) {
-    const auto& values = evaluator.compute_values(c, at);
+  for (int e = 0; e < domain.size(); ++e) {
+    const auto& values = evaluator.compute_values(e, at);
     for (int a = 0; a < per_cell; ++a) {
-      const int node = space.cell_nodes(c)[a];
+      const int node = space.cell_nodes(cells[e])[a];
       ++count[node];
       for (int k = 0; k < components; ++k)
         sum[static_cast<std::size_t>(node) * components + k] +=
@@ -160,6 +161,33 @@ std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector
     const auto part = integrate(faces, quantity, at, entry.field->mesh().communicator());
     for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += part[c];
   }
+  return sum;
+}
+
+std::vector<double> interface_integral(const Problem& problem, const std::string& interface,
+                                       const NamedQuantity& quantity, const TimePoint& at) {
+  return integrate(*problem.interfaces().at(interface), quantity, at, problem.communicator());
+}
+
+std::vector<double> interface_force(const Problem& problem, const std::string& interface,
+                                    const std::string& unknown, const TimePoint& at) {
+  const auto& domain = problem.interfaces().at(interface);
+  const Field::Place place = domain->fields().front()->place(unknown);
+  std::vector<double> sum(place.components, 0.0);
+  for (const auto& [other, terms] : problem.domains()) {
+    if (other != domain) continue;
+    ElementEvaluator evaluator(*domain, terms);
+    for (const ElementEvaluator::Part& part : evaluator.parts()) {
+      if (part.side != 0 || part.block != place.block) continue;
+      for (int e = 0; e < domain->size(); ++e) {
+        evaluator.compute(e, at, false);
+        for (int c = 0; c < place.components; ++c)
+          for (int a = 0; a < part.nodes; ++a)
+            sum[c] += evaluator.residual()[part.offset + (place.offset + c) * part.stride + a];
+      }
+    }
+  }
+  problem.communicator().sum(sum);
   return sum;
 }
 

@@ -31,6 +31,15 @@ std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& 
 std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,
                                       const NamedQuantity& quantity, const TimePoint& at);
 
+/// Integral of each component of a quantity of side 0's field over an interface. Collective.
+std::vector<double> interface_integral(const Problem& problem, const std::string& interface,
+                                       const NamedQuantity& quantity, const TimePoint& at);
+/// What the couplings on an interface exert, in sum, on whatever side 0's field meets there: the residual of
+/// their terms tested with 1 in each component of one of its unknowns. For a velocity or a displacement it is
+/// the force, in exact balance with the field's equations. Collective.
+std::vector<double> interface_force(const Problem& problem, const std::string& interface,
+                                    const std::string& unknown, const TimePoint& at);
+
 /// A point of a field: found once, evaluated often.
 class ProbePoint {
  public:

@@ -18,8 +18,9 @@ const Space* finest_space(const FieldEntry& entry) {
   return finest;
 }
 
-/// Cells and nodes of a space; the piece holds the cells this rank owns.
-VtuPiece piece_of(const Space& space) {
+/// Cells and nodes of a space; the piece holds the active cells this rank owns.
+/// @param active per local cell; empty when all are
+VtuPiece piece_of(const Space& space, const std::vector<char>& active) {
   const Mesh& mesh = space.mesh();
   VtuPiece piece;
   piece.dimension = mesh.dimension();
@@ -28,8 +29,9 @@ VtuPiece piece_of(const Space& space) {
   for (int n = 0; n < space.nodes(); ++n)
     piece.points.insert(piece.points.end(), space.position(n), space.position(n) + piece.dimension);
   for (int c = 0; c < mesh.owned_cells(); ++c)
-    piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c),
-                              space.cell_nodes(c) + space.nodes_per_cell());
+    if (active.empty() || active[c])
+      piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c),
+                                space.cell_nodes(c) + space.nodes_per_cell());
   return piece;
 }
 
@@ -47,7 +49,7 @@ void add_quantities(const FieldEntry& entry, const Space& space, const TimePoint
 
 /// A rigid body is shown by its mesh, moved as its point says.
 VtuPiece rigid_piece(const FieldEntry& entry, const Space& shape) {
-  VtuPiece piece = piece_of(shape);
+  VtuPiece piece = piece_of(shape, {});
   const int dim = piece.dimension;
   VtuArray array{entry.physics->displacement(), dim, std::vector<double>(piece.points.size()), {}};
   const Block& block = entry.field->blocks().front();
@@ -89,7 +91,9 @@ void FieldOutput::write(long step_number, const TimePoint& at) {
     const Space* space = finest_space(entry);
     std::unique_ptr<Space> shape;
     if (rigid || !space) shape = std::make_unique<Space>(*entry.shape, entry.shape->order());
-    VtuPiece piece = rigid ? rigid_piece(entry, *shape) : piece_of(space ? *space : *shape);
+    VtuPiece piece = rigid   ? rigid_piece(entry, *shape)
+                     : space ? piece_of(*space, entry.field->active_cells())
+                             : piece_of(*shape, {});
     if (!rigid && space) add_quantities(entry, *space, at, piece);
     const std::string stem = fmt::format("{}-{:06}", entry.name, step_number);
     const auto piece_name = [&](int rank) { return fmt::format("{}-r{}.vtu", stem, rank); };

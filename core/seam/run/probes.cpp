@@ -9,33 +9,49 @@
 
 namespace seam {
 
+namespace {
+
+/// The field a probe speaks of: named, or the one on the interface's first side.
+std::string field_of(const Parameters& p, const Problem& problem) {
+  if (p.has("field") == p.has("interface"))
+    throw Error(p.where(), "a probe needs either `field` or `interface`");
+  if (p.has("field")) return p.text("field");
+  return problem.interfaces().at(p.text("interface"))->fields().front()->name();
+}
+
+}  // namespace
+
 Probe::Probe(std::string name, const Parameters& p, Problem& problem)
-    : name_(std::move(name)), field_(p.text("field")), quantity_name_(p.text("quantity")) {
+    : name_(std::move(name)), field_(field_of(p, problem)), quantity_name_(p.text("quantity")) {
   const FieldEntry& entry = problem.field(field_);
+  if (p.has("interface")) interface_ = p.text("interface");
   if (p.has("on")) boundaries_ = p.names("on");
   if (p.has("component")) component_ = p.text("component");
+  choose_quantity(p, entry);
+  if (!interface_.empty() || !boundaries_.empty()) return;
+  const bool on_point = entry.physics->support() == Support::point;
+  if (!p.has("at") && !on_point) throw Error(p.where(), "a probe needs `at`, a point, or `on`, boundaries");
+  point_.emplace(entry, p.has("at") ? p.vector("at") : std::vector<double>(3, 0.0), p.where("at"));
+}
+
+void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
   // The force that holds what is prescribed: known only where something is prescribed.
   reaction_ = quantity_name_ == "reaction";
+  force_ = quantity_name_ == "force" && !interface_.empty();
   try {
-    if (reaction_) {
-      if (boundaries_.empty())
-        throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
-      quantity_ = find_quantity(entry, entry.field->unknowns().at(0).name);
-    } else {
-      quantity_ = find_quantity(entry, quantity_name_);
-    }
+    if (reaction_ && boundaries_.empty())
+      throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
+    quantity_ = find_quantity(
+        entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
   } catch (const Error& error) {
     throw Error(p.where("quantity"), error.what());
-  }
-  const bool on_point = entry.physics->support() == Support::point;
-  if (boundaries_.empty()) {
-    if (!p.has("at") && !on_point) throw Error(p.where(), "a probe needs `at`, a point, or `on`, boundaries");
-    point_.emplace(entry, p.has("at") ? p.vector("at") : std::vector<double>(3, 0.0), p.where("at"));
   }
 }
 
 std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const {
   const FieldEntry& entry = problem.field(field_);
+  if (force_) return interface_force(problem, interface_, entry.field->unknowns().at(0).name, at);
+  if (!interface_.empty()) return interface_integral(problem, interface_, quantity_, at);
   if (reaction_) return reaction(problem, entry, entry.field->unknowns().at(0).name, boundaries_);
   if (point_) return point_->evaluate(entry, quantity_, at);
   return boundary_integral(entry, boundaries_, quantity_, at);

@@ -18,6 +18,7 @@ class Probe {
   void record(Problem& problem, const TimePoint& at, Results& results) const;
 
  private:
+  void choose_quantity(const Parameters& parameters, const FieldEntry& entry);
   [[nodiscard]] std::vector<double> evaluate(Problem& problem, const TimePoint& at) const;
   std::string name_;
   std::string field_;
@@ -25,6 +26,8 @@ class Probe {
   NamedQuantity quantity_;
   std::vector<std::string> boundaries_;
   std::optional<ProbePoint> point_;
+  std::string interface_;
+  bool force_ = false;
   bool reaction_ = false;
   std::string component_;  ///< "", "x", "y", "z" or "magnitude"
 };

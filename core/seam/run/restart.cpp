@@ -160,6 +160,7 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
           std::copy_n(payload + at + static_cast<std::size_t>(block.space->global_node(n)) * block.size,
                       block.size, levels[l]->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
       block.old = block.now;
+      block.known.assign(block.known.size(), 1);
     }
   RunState state;
   state.time = header["time"];

@@ -8,6 +8,7 @@
 
 #include "seam/base/stopwatch.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
+#include "seam/run/derived.hpp"
 #include "seam/run/progress.hpp"
 
 namespace seam {
@@ -35,7 +36,7 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   read_time();
   build_fields(registry);
   build_couplings(registry);
-  problem_.finish();
+  problem_.finish(time_.start);
   const Parameters& solver = scene.root.object("solver");
   linear_ = registry.create<LinearSolver>("linear_solver", solver.object("linear"));
   const Parameters& newton = solver.object("newton");
@@ -71,32 +72,49 @@ void Simulation::read_time() {
 }
 
 void Simulation::build_fields(const Registry& registry) {
-  const auto data = load_meshes(scene_);
-  check_mesh_names(scene_, registry, mesh_names(data));
+  meshes_ = load_meshes(scene_);
+  check_mesh_names(scene_, registry, mesh_names(meshes_));
   std::map<std::string, std::shared_ptr<const Mesh>> meshes;
   for (const auto& [name, parameters] : scene_.root.map("fields")) {
     const std::string& mesh = parameters.text("mesh");
-    if (!meshes.contains(mesh)) meshes[mesh] = std::make_shared<Mesh>(mesh, data.at(mesh), communicator_);
+    if (!meshes.contains(mesh)) meshes[mesh] = std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_);
     problem_.add_field(name, meshes[mesh], registry.create<Physics>("field", parameters));
   }
 }
 
+/// What an interface may ask of the scene while it is built.
+class Simulation::Setup final : public InterfaceSetup {
+ public:
+  Setup(Simulation& simulation, const std::vector<std::string>& names) : simulation_(simulation) {
+    int order = 1;
+    for (const std::string& name : names) {
+      entries_.push_back(&simulation.problem_.field(name));
+      sides.push_back(entries_.back()->field.get());
+      for (const Block& block : sides.back()->blocks()) order = std::max(order, block.space->order());
+    }
+    degree = 2 * order;
+  }
+  FieldCut& cut(int side) override { return simulation_.problem_.cut(*entries_[side]); }
+  std::shared_ptr<const MeshData> mesh(const std::string& name) override {
+    return simulation_.meshes_.at(name);
+  }
+
+ private:
+  Simulation& simulation_;
+  std::vector<FieldEntry*> entries_;
+};
+
 void Simulation::build_couplings(const Registry& registry) {
   struct Built {
-    std::unique_ptr<Interface> interface;
     std::shared_ptr<IntegrationDomain> domain;
     std::vector<Field*> sides;
   };
   std::map<std::string, Built> interfaces;
   for (const auto& [name, parameters] : scene_.root.map("interfaces")) {
-    Built& built = interfaces[name];
-    built.interface = registry.create<Interface>("interface", parameters);
-    int order = 1;
-    for (const std::string& field : built.interface->fields()) {
-      built.sides.push_back(problem_.field(field).field.get());
-      for (const Block& block : built.sides.back()->blocks()) order = std::max(order, block.space->order());
-    }
-    built.domain = built.interface->build(built.sides, 2 * order);
+    const auto interface = registry.create<Interface>("interface", parameters);
+    Setup setup(*this, interface->fields());
+    interfaces[name] = {interface->build(setup), setup.sides};
+    problem_.name_interface(name, interfaces[name].domain);
   }
   for (const Parameters& parameters : scene_.root.list("coupling")) {
     const Built& built = interfaces.at(parameters.text("on"));
@@ -121,6 +139,7 @@ void Simulation::start(const RunOptions& options) {
   const bool resumed = !point.empty();
   if (resumed) {
     state_ = read_restart(point, problem_);
+    problem_.update_spaces(time_point(state_.time, 0, time_.theta));
   } else {
     state_.time = time_.start;
     state_.step = time_.initial;
@@ -176,6 +195,7 @@ void Simulation::record_failure(const std::string& reason) {
   failure_ = reason;
   finish_timings();
   if (state_.results.time.empty()) return;  // it failed before there was a state
+  problem_.update_spaces(last_point_);
   if (fields_ && last_fields_ != state_.step_number) write_fields(last_point_);
   save_restart();
 }
@@ -189,6 +209,11 @@ bool Simulation::try_step(double step) {
   problem_.begin_step(at);
   try {
     reports_.push_back(newton_->solve(at));
+  } catch (const StepRefused& refused) {
+    problem_.restore(before);
+    NewtonReport& report = reports_.emplace_back();
+    report.reason = refused.what();
+    return false;
   } catch (...) {
     problem_.restore(before);
     throw;
@@ -243,6 +268,7 @@ void Simulation::record(const TimePoint& at) {
   state_.results.time.push_back(state_.time);
   for (const Probe& probe : probes_) probe.record(problem_, at, state_.results);
   record_integrals(problem_, at, state_.results);
+  record_formulas(scene_, state_.results);
   const long every = scene_.root.object("output").integer("every");
   const bool last = state_.time >= time_.end;
   last_point_ = at;
@@ -278,6 +304,7 @@ void Simulation::finish_errors() {
     state_.results.once[name + ".l2"] = norms.l2;
     if (norms.h1) state_.results.once[name + ".h1"] = *norms.h1;
   }
+  finish_statistics(scene_, state_.results);
   std::vector<double> iterations;
   for (const NewtonReport& report : reports_)
     iterations.push_back(static_cast<double>(report.history.size()) - 1);

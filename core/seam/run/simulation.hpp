@@ -64,6 +64,7 @@ class Simulation {
     double initial = 1, minimum = 1e-6, maximum = 1;
     bool adaptive = false;
   };
+  class Setup;
   void read_time();
   void build_fields(const Registry& registry);
   void build_couplings(const Registry& registry);
@@ -81,6 +82,7 @@ class Simulation {
 
   const Scene& scene_;
   Communicator communicator_;
+  std::map<std::string, std::shared_ptr<const MeshData>> meshes_;
   Problem problem_;
   std::unique_ptr<LinearSolver> linear_;
   std::unique_ptr<Newton> newton_;

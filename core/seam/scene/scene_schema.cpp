@@ -63,7 +63,8 @@ Schema solver_schema() {
 Schema picture_schema() {
   Schema schema("A picture of the last state, as PNG.");
   schema.reference("field", "whose mesh is shown", "field");
-  schema.text("quantity", "what colours it: a quantity that `seam explain` lists for the field's type");
+  schema.text("quantity", "what colours it: a quantity that `seam explain` lists for the field's type; reaction, the force that holds what is "
+                          "prescribed on `on`; or force, what the couplings on `interface` exert on the body");
   schema.choice("component", "of a vector quantity; default its magnitude", {"x", "y", "z", "magnitude"})
       .optional();
   schema.number("deformed", "scale of the displacement that moves the mesh; 0 for none").otherwise("1");
@@ -72,13 +73,32 @@ Schema picture_schema() {
 }
 
 Schema probe_schema() {
-  Schema schema("A number recorded at every step: a quantity at a point, or its integral over boundaries.");
-  schema.reference("field", "where it is read", "field");
+  Schema schema(
+      "A number recorded at every step: a quantity at a point, or its integral over boundaries or over an "
+      "interface.");
+  schema.reference("field", "where it is read", "field").optional();
+  schema.reference("interface", "over which it is integrated, instead of a field", "interface").optional();
   schema.vector("at", "point in the reference configuration").unit("m").optional();
   schema.names("on", "boundaries instead of a point").naming("boundary").optional();
-  schema.text("quantity", "a quantity that `seam explain` lists for the field's type");
+  schema.text("quantity", "a quantity that `seam explain` lists for the field's type; reaction, the force that holds what is "
+                          "prescribed on `on`; or force, what the couplings on `interface` exert on the body");
   schema.choice("component", "of a vector quantity; default all of them", {"x", "y", "z", "magnitude"})
       .optional();
+  return schema;
+}
+
+Schema formula_schema() {
+  Schema schema("A number computed from others at every step.");
+  schema.text("value", "formula of the probes (those without a dot in their name) and of the parameters");
+  return schema;
+}
+
+Schema statistic_schema() {
+  Schema schema("What a series does over time, known at the end.");
+  schema.text("of", "a probe or a formula");
+  schema.choice("what", "frequency: of the upward crossings of the mean",
+                {"maximum", "minimum", "mean", "frequency"});
+  schema.number("from", "time from which on it counts; default the start").unit("s").optional();
   return schema;
 }
 
@@ -104,6 +124,8 @@ Schema output_schema() {
   schema.boolean("fields", "write the fields as VTU, with a PVD file for the time series").otherwise("true");
   schema.object("picture", "a picture of the last state", picture_schema()).optional();
   schema.map("probes", "numbers recorded at every step, as CSV", probe_schema()).otherwise("{}");
+  schema.value_map("formulas", "numbers computed from probes at every step", formula_schema()).otherwise("{}");
+  schema.map("statistics", "extremes, means and frequencies of series", statistic_schema()).otherwise("{}");
   schema.map("errors", "comparison with known solutions", error_schema()).otherwise("{}");
   schema.object("restart", "points to continue from", restart).otherwise("{}");
   return schema;

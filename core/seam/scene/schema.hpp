@@ -43,6 +43,7 @@ struct Parameter {
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
   bool maximum_excluded = false;
+  bool infinite = false;  ///< number: `.inf` is a value
   std::vector<std::string> choices;
   /// reference, names: what is named ("mesh", "field", "interface", "boundary", "region"; see naming());
   /// typed: the registry's kind
@@ -85,6 +86,11 @@ struct Parameter {
   Parameter& below(double v) {
     maximum = v;
     maximum_excluded = true;
+    return *this;
+  }
+  /// Accepts `.inf`, where that means something.
+  Parameter& or_infinite() {
+    infinite = true;
     return *this;
   }
   Parameter& entries(int n) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace seam {
@@ -179,6 +180,7 @@ class Validator {
       mismatch(node, p, path);
       return {};
     }
+    if (p.infinite && node.scalar == ".inf") return std::numeric_limits<double>::infinity();
     try {
       const double v = evaluate_constant(node.scalar, context_.parameters);
       const bool low = p.minimum_excluded ? v <= p.minimum : v < p.minimum;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace seam {
@@ -56,9 +57,50 @@ std::vector<int> boundary_nodes(const Field& field, int block, const std::string
 
 int FieldBuilder::highest_order() const { return order_of(*entry_.field); }
 
+std::vector<std::string> FieldBuilder::boundaries() const {
+  std::vector<std::string> names;
+  for (const auto& entry : entry_.shape->boundaries()) names.push_back(entry.first);
+  return names;
+}
+
+int FieldBuilder::boundary_axis(const std::string& boundary) const {
+  const Mesh& mesh = *entry_.shape;
+  const MeshData& whole = mesh.whole();
+  const CellTopology& cell = topology(mesh.type());
+  const std::size_t per_face = static_cast<std::size_t>(topology(cell.face_type).nodes(mesh.order()));
+  const int dim = mesh.dimension();
+  double low[3], high[3], extent = 0;
+  std::fill_n(low, 3, INFINITY);
+  std::fill_n(high, 3, -INFINITY);
+  static_cast<void>(mesh.boundary(boundary));  // throws when there is none
+  for (const CellFace& face : whole.boundaries.at(boundary))
+    for (std::size_t a = 0; a < per_face; ++a) {
+      const int local = cell.face_nodes[face.face][a];
+      const int node = whole.cells[static_cast<std::size_t>(face.cell) * whole.nodes_per_cell() + local];
+      for (int d = 0; d < dim; ++d) {
+        const double x = whole.coordinates[static_cast<std::size_t>(node) * dim + d];
+        low[d] = std::min(low[d], x);
+        high[d] = std::max(high[d], x);
+        extent = std::max(extent, high[d] - low[d]);
+      }
+    }
+  for (int d = 0; d < dim; ++d)
+    if (high[d] - low[d] <= 1e-12 * extent) return d;
+  return -1;
+}
+
+void FieldBuilder::publish(const std::string& constant, double value) {
+  entry_.field->set_constant(constant, value);
+}
+
 void FieldBuilder::add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) {
   const int degree = cell_degree(*entry_.field, *term);
-  cell_terms_[degree].push_back({std::move(term), on_side_zero(operands)});
+  cell_terms_[{CellDomain::Cells::all, degree}].push_back({std::move(term), on_side_zero(operands)});
+}
+
+void FieldBuilder::add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) {
+  const int degree = cell_degree(*entry_.field, *term);
+  cell_terms_[{CellDomain::Cells::uncut, degree}].push_back({std::move(term), on_side_zero(operands)});
 }
 
 void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
@@ -69,7 +111,21 @@ void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_pt
 
 void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) {
   const int degree = 2 * highest_order() + term->extra_degree();
-  face_terms_[degree].push_back({std::move(term), std::move(operands)});
+  face_terms_[{InteriorFaceDomain::Faces::all, degree}].push_back({std::move(term), std::move(operands)});
+}
+
+void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
+                                       std::vector<Operand> operands) {
+  const int degree = 2 * highest_order() + term->extra_degree();
+  const auto which =
+      faces == GhostFaces::all ? InteriorFaceDomain::Faces::ghost : InteriorFaceDomain::Faces::wet_ghost;
+  face_terms_[{which, degree}].push_back({std::move(term), std::move(operands)});
+}
+
+void FieldBuilder::fix_level(const std::string& unknown, double value,
+                             std::vector<std::string> open_boundaries) {
+  const Field::Place place = entry_.field->place(unknown);
+  entry_.levels.push_back({place.block, place.offset, value, std::move(open_boundaries), {}});
 }
 
 void FieldBuilder::prescribe(const std::string& boundary, const std::string& unknown, int component,
@@ -137,13 +193,15 @@ Moments FieldBuilder::moments() const {
 }
 
 void FieldBuilder::finish() {
-  for (auto& [degree, terms] : cell_terms_)
-    domains_.emplace_back(std::make_shared<CellDomain>(*entry_.field, degree), std::move(terms));
+  for (auto& [key, terms] : cell_terms_)
+    domains_.emplace_back(std::make_shared<CellDomain>(*entry_.field, key.second, key.first),
+                          std::move(terms));
   for (auto& [key, terms] : boundary_terms_)
     domains_.emplace_back(std::make_shared<BoundaryDomain>(*entry_.field, key.first, key.second),
                           std::move(terms));
-  for (auto& [degree, terms] : face_terms_)
-    domains_.emplace_back(std::make_shared<InteriorFaceDomain>(*entry_.field, degree), std::move(terms));
+  for (auto& [key, terms] : face_terms_)
+    domains_.emplace_back(std::make_shared<InteriorFaceDomain>(*entry_.field, key.second, key.first),
+                          std::move(terms));
 }
 
 }  // namespace seam

@@ -18,10 +18,17 @@ class FieldBuilder final : public FieldSetup {
 
   [[nodiscard]] int dimension() const override { return entry_.shape->dimension(); }
   [[nodiscard]] const std::string& field_name() const override { return entry_.name; }
+  [[nodiscard]] std::vector<std::string> boundaries() const override;
+  [[nodiscard]] int boundary_axis(const std::string& boundary) const override;
+  void publish(const std::string& constant, double value) override;
   void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
+  void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                          std::vector<std::string> operands) override;
   void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) override;
+  void add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
+                           std::vector<Operand> operands) override;
+  void fix_level(const std::string& unknown, double value, std::vector<std::string> open_boundaries) override;
   void prescribe(const std::string& boundary, const std::string& unknown, int component, Expression value,
                  const Location& where) override;
   void set_initial(const std::string& unknown, int component, Expression value) override;
@@ -36,9 +43,10 @@ class FieldBuilder final : public FieldSetup {
   [[nodiscard]] int highest_order() const;
   FieldEntry& entry_;
   std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains_;
-  std::map<int, std::vector<BoundTerm>> cell_terms_;  ///< by degree of the quadrature
+  /// By where they live and the degree of the quadrature.
+  std::map<std::pair<CellDomain::Cells, int>, std::vector<BoundTerm>> cell_terms_;
   std::map<std::pair<std::string, int>, std::vector<BoundTerm>> boundary_terms_;
-  std::map<int, std::vector<BoundTerm>> face_terms_;
+  std::map<std::pair<InteriorFaceDomain::Faces, int>, std::vector<BoundTerm>> face_terms_;
 };
 
 /// Degree a quadrature on the cells of `field` must integrate exactly for this term.

@@ -12,6 +12,8 @@ namespace seam {
 namespace {
 
 constexpr double rounding = 1e-13;  ///< relative residual that cannot be lowered
+/// Part of a value that counts as its change in the step: in a steady state increments are noise.
+constexpr double steady_part = 1e-6;
 
 }  // namespace
 
@@ -32,7 +34,8 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
           sums[0] += std::pow(assembler.residual()[row + c], 2);
           sums[1] += std::pow(assembler.magnitude()[row + c], 2);
           if (!increment.empty()) sums[2] += std::pow(factor * increment[row + c], 2);
-          sums[3] += std::pow(block.now.value[i] - block.old.value[i], 2);
+          const double change = std::abs(block.now.value[i] - block.old.value[i]);
+          sums[3] += std::pow(change + steady_part * std::abs(block.now.value[i]), 2);
         }
       }
       problem_.communicator().sum(sums);
@@ -63,7 +66,7 @@ NewtonReport Newton::solve(const TimePoint& at) {
       }
     }
     entry.damping = factor;
-    entry.space_changed = problem_.update_spaces();
+    entry.space_changed = problem_.update_spaces(at);
     if (iteration == 0 || entry.space_changed) problem_.assembler().assemble(at, true);
     // After a renumbering the increment's rows mean nothing any more.
     if (entry.space_changed) increment.clear();
@@ -128,7 +131,7 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
 void Newton::solve_initial_rates(double time) {
   TimePoint at = time_point(time, 0, 1);
   at.initial_rates = true;
-  problem_.update_spaces();
+  problem_.update_spaces(at);
   problem_.assembler().assemble(at, true);
   std::vector<double> increment;
   SolveReport report;

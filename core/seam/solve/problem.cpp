@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "seam/solve/field_builder.hpp"
+#include "seam/solve/level.hpp"
 
 namespace seam {
 namespace {
@@ -42,12 +43,18 @@ void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::ve
   domains_.emplace_back(std::move(interface), std::move(terms));
 }
 
-void Problem::restrict_field(FieldEntry& entry, const std::vector<char>& active) {
-  entry.field->activate_cells(active);
-  for (auto& [domain, terms] : domains_) domain->restrict_to(*entry.field, active);
+void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
+  entry.field->occupy(active, cut);
+  for (auto& [domain, terms] : domains_) domain->update(*entry.field);
+  place_levels(entry);
 }
 
-void Problem::finish() {
+FieldCut& Problem::cut(FieldEntry& entry) {
+  if (!entry.cut) entry.cut = std::make_unique<FieldCut>(*entry.field);
+  return *entry.cut;
+}
+
+void Problem::finish(double time) {
   std::vector<Field*> fields;
   for (FieldEntry& entry : fields_) {
     for (const PrescribedCondition& condition : entry.conditions) {
@@ -56,8 +63,10 @@ void Problem::finish() {
         block.prescribed[static_cast<std::size_t>(node) * block.size + condition.component] = 1;
     }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
+    place_levels(entry);
     fields.push_back(entry.field.get());
   }
+  update_cuts(time_point(time, 0, 1));
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   for (const auto& [domain, terms] : domains_) assembler_->add(domain, terms);
   assembler_->rebuild();
@@ -96,6 +105,7 @@ void Problem::initialise(double time, bool impose_prescribed) {
       for (std::size_t i = 0; i < block.prescribed.size(); ++i)
         if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
       block.old = block.now;
+      block.known.assign(block.known.size(), 1);
     }
 }
 
@@ -124,6 +134,11 @@ void Problem::set_prescribed(double time) {
         block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
             condition.value(block.space->position(node), entry.mesh->dimension(), time);
     }
+    for (const LevelCondition& level : entry.levels)
+      for (const int node : level.nodes) {
+        Block& block = entry.field->blocks()[level.block];
+        block.prescribed_value[static_cast<std::size_t>(node) * block.size + level.component] = level.value;
+      }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed_value, block.size);
   }
 }
@@ -157,9 +172,20 @@ void Problem::update_rates(const TimePoint& at) {
       }
 }
 
-bool Problem::update_spaces() {
+bool Problem::update_cuts(const TimePoint& at) {
   bool changed = false;
-  for (const SpaceUpdate& update : space_updates_) changed |= update();
+  for (FieldEntry& entry : fields_) {
+    if (!entry.cut || !entry.cut->update(at.time)) continue;
+    occupy(entry, entry.cut->active_cells(), &entry.cut->mesh());
+    changed = true;
+  }
+  if (changed) update_rates(at);
+  return changed;
+}
+
+bool Problem::update_spaces(const TimePoint& at) {
+  bool changed = update_cuts(at);
+  for (const SpaceUpdate& update : space_updates_) changed |= update(at);
   if (changed) assembler_->rebuild();
   return changed;
 }
@@ -167,14 +193,17 @@ bool Problem::update_spaces() {
 Problem::Snapshot Problem::snapshot() const {
   Snapshot states;
   for (const FieldEntry& entry : fields_)
-    for (const Block& block : entry.field->blocks()) states.push_back(block.now);
+    for (const Block& block : entry.field->blocks()) states.push_back({block.now, block.known});
   return states;
 }
 
 void Problem::restore(const Snapshot& states) {
   std::size_t s = 0;
   for (FieldEntry& entry : fields_)
-    for (Block& block : entry.field->blocks()) block.now = states[s++];
+    for (Block& block : entry.field->blocks()) {
+      block.now = states[s].now;
+      block.known = states[s++].known;
+    }
 }
 
 TimePoint time_point(double time, double step, double theta) {

@@ -9,6 +9,7 @@
 
 #include "seam/assembly/assembler.hpp"
 #include "seam/assembly/domains.hpp"
+#include "seam/cut/field_cut.hpp"
 #include "seam/interface/interface.hpp"
 #include "seam/physics/physics.hpp"
 
@@ -32,6 +33,15 @@ struct PrescribedCondition {
   Location where;
 };
 
+/// An unknown whose level is fixed at one node of each connected part of the field that does not reach an
+/// open boundary.
+struct LevelCondition {
+  int block, component;
+  double value;
+  std::vector<std::string> open_boundaries;
+  std::vector<int> nodes;  ///< the local nodes that hold it at present
+};
+
 /// A field with its physics.
 struct FieldEntry {
   std::string name;
@@ -46,6 +56,8 @@ struct FieldEntry {
     bool rate;
   };
   std::vector<Initial> initial;
+  std::vector<LevelCondition> levels;
+  std::unique_ptr<FieldCut> cut;  ///< null when nothing cuts the field's mesh
   std::vector<FieldQuantity> outputs, integrals;
 };
 
@@ -60,18 +72,27 @@ class Problem {
                    std::unique_ptr<Physics> physics);
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
+  /// Lets the interface be found by its name in the scene.
+  void name_interface(const std::string& name, std::shared_ptr<IntegrationDomain> interface) {
+    interfaces_[name] = std::move(interface);
+  }
+  [[nodiscard]] const std::map<std::string, std::shared_ptr<IntegrationDomain>>& interfaces() const {
+    return interfaces_;
+  }
   /// Called before each Newton iteration; returns true when it changed active unknowns, domains or prescribed
   /// values, after which the system is rebuilt. The return value must be the same on all ranks.
-  using SpaceUpdate = std::function<bool()>;
+  using SpaceUpdate = std::function<bool(const TimePoint&)>;
   void add_space_update(SpaceUpdate update) { space_updates_.push_back(std::move(update)); }
 
   /// Restricts a field to some of its cells: terms on others are left out, and nodes that only those have
   /// carry no unknowns. Collective; rebuild the system afterwards (a SpaceUpdate returns true).
   /// @param active per local cell of the field's mesh, ghosts included
-  void restrict_field(FieldEntry& entry, const std::vector<char>& active);
+  void occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut = nullptr);
+  /// The bodies that cut a field's mesh: to add one, before finish().
+  FieldCut& cut(FieldEntry& entry);
 
-  /// Call once everything is added. Collective.
-  void finish();
+  /// Call once everything is added. Collective. @param time at which bodies cut meshes first
+  void finish(double time = 0);
 
   [[nodiscard]] Assembler& assembler() { return *assembler_; }
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
@@ -98,19 +119,26 @@ class Problem {
   void begin_step(const TimePoint& at);
   /// Lets rates follow the values as the time scheme says.
   void update_rates(const TimePoint& at);
-  /// Runs the space updates and rebuilds where needed; returns whether it did.
-  bool update_spaces();
+  /// Cuts meshes anew, runs the space updates and rebuilds where needed; returns whether it did. Collective.
+  /// @throws StepRefused when a body moved further than states can be carried
+  bool update_spaces(const TimePoint& at);
 
   /// All states of all fields; what a failed step is rewound to.
-  using Snapshot = std::vector<NodalState>;
+  struct BlockSnapshot {
+    NodalState now;
+    std::vector<char> known;
+  };
+  using Snapshot = std::vector<BlockSnapshot>;
   [[nodiscard]] Snapshot snapshot() const;
   void restore(const Snapshot& states);
 
  private:
   void set_prescribed(double time);
+  bool update_cuts(const TimePoint& at);
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
+  std::map<std::string, std::shared_ptr<IntegrationDomain>> interfaces_;
   std::vector<SpaceUpdate> space_updates_;
   std::unique_ptr<Assembler> assembler_;
 };

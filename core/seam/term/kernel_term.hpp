@@ -102,7 +102,10 @@ template <int dim, class G = double>
 struct Point {
   Vec<dim, G> position;  ///< m
   Vec<dim, G> normal;    ///< outward unit normal of side 0; zero in cell terms
-  double cell_size = 0;  ///< m, diameter of side 0's cell
+  double cell_size = 0;  ///< m, diameter of side 0's cell; of the larger cell at a face between two
+  /// m, on boundaries and interfaces: volume of side 0's cell over the area of the boundary in it, the length
+  /// that scales Nitsche penalties (the whole cell's volume where it is cut).
+  double trace_size = 0;
   double time = 0;       ///< s, end of the step
   double step = 0;       ///< s; 0 in a static problem
   double theta = 1;
@@ -256,6 +259,7 @@ Point<dim> point(const PointBatch& b, int q) {
     p.normal[i] = b.normal ? b.normal[q * dim + i] : 0.0;
   }
   p.cell_size = b.cell_size[q];
+  p.trace_size = b.trace_size[q];
   p.time = b.time;
   p.step = b.step;
   p.theta = b.theta;

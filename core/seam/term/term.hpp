@@ -60,6 +60,7 @@ struct PointBatch {
   const double* position = nullptr;   ///< [point][dimension], reference configuration of the side-0 mesh
   const double* normal = nullptr;     ///< [point][dimension], outward from side 0; null for cell terms
   const double* cell_size = nullptr;  ///< [point], diameter of side 0's cell
+  const double* trace_size = nullptr;  ///< [point], see Point
   const double* inputs = nullptr;     ///< [point][Signature::inputs], slot by slot: [component][row]
   double time = 0.0;                  ///< the end of the step
   double step = 0.0;                  ///< length of the step; 0 in a static problem

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/cut/cut_mesh.hpp"
+
+namespace seam {
+
+BoundaryDomain::BoundaryDomain(Field& field, const std::string& boundary, int degree)
+    : field_(&field), boundary_(boundary), degree_(degree), tables_(field, degree, true) {
+  BoundaryDomain::update(field);
+}
+
+void BoundaryDomain::update(const Field& field) {
+  if (&field != field_) return;
+  whole_.clear();
+  cut_.clear();
+  CutRule rule;
+  for (const CellFace& face : field.mesh().boundary(boundary_)) {
+    if (face.cell >= field.mesh().owned_cells() || !field.active_cells()[face.cell]) continue;
+    if (!field.is_cut(face.cell)) {
+      whole_.push_back(face);
+      continue;
+    }
+    field.cut()->face_rule(face.cell, face.face, degree_, rule);
+    if (rule.count() == 0) continue;
+    CutTables& part = cut_.emplace_back();
+    part.cell = face.cell;
+    part.face = face.face;
+    part.weight = rule.weight;
+    part.fill(field, rule.reference, true);
+  }
+}
+
+void BoundaryDomain::fill(int index, Element& element) const {
+  const Mesh& mesh = field_->mesh();
+  const int whole = static_cast<int>(whole_.size());
+  element.dimension = mesh.dimension();
+  element.sides.resize(1);
+  ElementSide& side = element.sides[0];
+  const CutTables* part = index < whole ? nullptr : &cut_[index - whole];
+  const CellFace face = part ? CellFace{part->cell, part->face} : whole_[index];
+  attach_cell(side, *field_, face.cell);
+  side.face = face.face;
+  if (part)
+    part->attach(side);
+  else
+    tables_.attach(side);
+  element.points = part ? static_cast<int>(part->weight.size()) : tables_.rule().count();
+  side.map_geometry();
+  const CellTopology& cell = topology(mesh.type());
+  // For the normals' sake also where the weights of a wet part replace those of the face.
+  element.measure_face(cell, side.face, part ? part->weight : tables_.rule().weights);
+  if (part) element.weight = part->weight;
+  element.set_sizes(side.diameter, mesh.volume(face.cell) / element.measure());
+}
+
+const int* BoundaryDomain::nodes(int index, int, int block) const {
+  const int whole = static_cast<int>(whole_.size());
+  const int cell = index < whole ? whole_[index].cell : cut_[index - whole].cell;
+  return field_->blocks()[block].space->cell_nodes(cell);
+}
+
+std::string BoundaryDomain::description() const {
+  return fmt::format("boundary '{}' of field '{}'", boundary_, field_->name());
+}
+
+}  // namespace seam

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/cut/cut_mesh.hpp"
+
+namespace seam {
+
+InteriorFaceDomain::InteriorFaceDomain(Field& field, int degree, Faces faces)
+    : field_(&field), choice_(faces), tables_(field, degree, true) {
+  InteriorFaceDomain::update(field);
+}
+
+bool InteriorFaceDomain::belongs(const Mesh::InteriorFace& face) const {
+  const int cells[2] = {face.side[0].cell, face.side[1].cell};
+  if (!field_->active_cells()[cells[0]] || !field_->active_cells()[cells[1]]) return false;
+  if (choice_ == Faces::all) return true;
+  const bool is_cut[2] = {field_->is_cut(cells[0]), field_->is_cut(cells[1])};
+  if (!is_cut[0] && !is_cut[1]) return false;
+  // Next to a whole cell the face is wet, at least in part.
+  if (choice_ == Faces::ghost || !is_cut[0] || !is_cut[1]) return true;
+  static thread_local CutRule rule;
+  field_->cut()->face_rule(cells[0], face.side[0].face, 1, rule);
+  return rule.count() > 0;
+}
+
+void InteriorFaceDomain::update(const Field& field) {
+  if (&field != field_) return;
+  const Space& space = *field.blocks().front().space;
+  const CellTopology& cell = topology(field.mesh().type());
+  faces_.clear();
+  for (const Mesh::InteriorFace& face : field.mesh().interior_faces())
+    if (belongs(face))
+      faces_.push_back({{face.side[0], face.side[1]},
+                        FaceTables::orientation(cell, space.cell_nodes(face.side[0].cell), face.side[0].face,
+                                                space.cell_nodes(face.side[1].cell), face.side[1].face)});
+}
+
+void InteriorFaceDomain::fill(int index, Element& element) const {
+  const OrientedFace& face = faces_[index];
+  element.dimension = field_->mesh().dimension();
+  element.points = tables_.rule().count();
+  element.sides.resize(2);
+  for (int s = 0; s < 2; ++s) {
+    attach_cell(element.sides[s], *field_, face.side[s].cell);
+    element.sides[s].face = face.side[s].face;
+  }
+  ElementSide &first = element.sides[0], &second = element.sides[1];
+  tables_.attach(first);
+  tables_.attach_partner(second, face.orientation);
+  first.map_geometry();
+  second.map_geometry();
+  element.measure_face(topology(field_->mesh().type()), first.face, tables_.rule().weights);
+  const double size = std::max(first.diameter, second.diameter);
+  element.set_sizes(size, size);
+}
+
+const int* InteriorFaceDomain::nodes(int index, int side, int block) const {
+  return field_->blocks()[block].space->cell_nodes(faces_[index].side[side].cell);
+}
+
+std::string InteriorFaceDomain::description() const {
+  return fmt::format("interior faces of field '{}'", field_->name());
+}
+
+}  // namespace seam

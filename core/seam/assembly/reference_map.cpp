@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/base/diagnostics.hpp"
+
+namespace seam {
+
+void attach_cell(ElementSide& side, const Field& field, int cell) {
+  side.field = &field;
+  side.global_cell = field.mesh().global_cell(cell);
+  side.geometry = field.mesh().geometry(cell);
+  side.diameter = field.mesh().diameter(cell);
+  side.nodes.resize(field.blocks().size());
+  for (std::size_t b = 0; b < side.nodes.size(); ++b)
+    side.nodes[b] = field.blocks()[b].space->cell_nodes(cell);
+}
+
+void invert_map(const ElementSide& side, const double* position, double* guess) {
+  const Mesh& mesh = side.field->mesh();
+  const int dim = mesh.dimension();
+  static thread_local ElementSide probe;
+  static thread_local ShapeTable table;
+  probe.field = side.field;
+  probe.global_cell = side.global_cell;
+  probe.geometry = side.geometry;
+  double last = 1e300;
+  for (int iteration = 0; iteration < 30; ++iteration) {
+    tabulate(mesh.type(), mesh.order(), guess, 1, false, table);
+    probe.table[mesh.order() - 1] = &table;
+    probe.map_geometry();
+    double step = 0;
+    for (int j = 0; j < dim; ++j) {
+      double update = 0;
+      for (int i = 0; i < dim; ++i)
+        update += probe.inverse_jacobian[j * dim + i] * (position[i] - probe.position[i]);
+      guess[j] += update;
+      step = std::max(step, std::abs(update));
+    }
+    // Far from the origin the positions' rounding, not Newton's method, limits the step.
+    if (step < 1e-14 || (step < 1e-6 && step > 0.1 * last)) return;
+    last = step;
+  }
+  throw Error(fmt::format("no reference coordinates found for a point on a face of cell {} of mesh '{}'",
+                          side.global_cell, mesh.name()));
+}
+
+}  // namespace seam

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/cut/cut_interface.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/cut/field_cut.hpp"
+
+namespace seam {
+namespace {
+
+/// The part of a body's surface that bounds the field, piece by piece.
+class CutBoundary final : public IntegrationDomain {
+ public:
+  CutBoundary(Field& field, int body, int degree) : field_(&field), body_(body), degree_(degree) {}
+  [[nodiscard]] int size() const override { return static_cast<int>(parts_.size()); }
+  [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
+  void fill(int index, Element& element) const override;
+  [[nodiscard]] const int* nodes(int index, int, int block) const override {
+    return field_->blocks()[block].space->cell_nodes(parts_[index].cell);
+  }
+  [[nodiscard]] std::string description() const override {
+    return fmt::format("the boundary of a body in field '{}'", field_->name());
+  }
+  void update(const Field& field) override;
+
+ private:
+  void add_part(int cell, const InterfaceRule& rule);
+  struct Part : CutTables {
+    std::vector<double> normal;  ///< [point][dimension]
+  };
+  Field* field_;
+  int body_, degree_;
+  std::vector<Part> parts_;
+};
+
+void CutBoundary::update(const Field& field) {
+  if (&field != field_) return;
+  parts_.clear();
+  if (!field.cut()) return;
+  InterfaceRule rule;
+  for (const int cell : field.cut()->cut_cells()) {
+    if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
+    field.cut()->interface_rule(cell, degree_, rule);
+    add_part(cell, rule);
+  }
+}
+
+void CutBoundary::add_part(int cell, const InterfaceRule& rule) {
+  const auto dim = static_cast<std::size_t>(field_->mesh().dimension());
+  Part part;
+  std::vector<double> reference;
+  for (std::size_t q = 0; q < rule.weight.size(); ++q) {
+    if (rule.body[q] != body_) continue;
+    part.weight.push_back(rule.weight[q]);
+    for (std::size_t d = 0; d < dim; ++d) {
+      reference.push_back(rule.reference[q * dim + d]);
+      part.normal.push_back(rule.normal[q * dim + d]);
+    }
+  }
+  if (part.weight.empty()) return;
+  part.cell = cell;
+  part.fill(*field_, reference, true);
+  parts_.push_back(std::move(part));
+}
+
+void CutBoundary::fill(int index, Element& element) const {
+  const Part& part = parts_[index];
+  element.dimension = field_->mesh().dimension();
+  element.points = static_cast<int>(part.weight.size());
+  element.sides.resize(1);
+  ElementSide& side = element.sides[0];
+  attach_cell(side, *field_, part.cell);
+  part.attach(side);
+  side.map_geometry();
+  element.weight = part.weight;
+  element.normal = part.normal;
+  element.set_sizes(side.diameter,
+                    field_->mesh().volume(part.cell) / field_->cut()->interface_area(part.cell));
+}
+
+/// A rigid motion given as functions of time.
+class Motion {
+ public:
+  explicit Motion(const Parameters& p)
+      : translation_(p.has("translation") ? p.vector_expression("translation") : std::vector<Expression>{}),
+        angle_(p.expression("rotation")),
+        about_(p.has("about") ? p.vector("about") : std::vector<double>(3, 0.0)),
+        axis_(p.vector("axis")) {}
+  static Schema schema() {
+    Schema s("A rigid motion: a rotation, then a translation.");
+    s.vector_expression("translation", "displacement as a function of t").unit("m").optional();
+    s.expression("rotation", "angle as a function of t, counter-clockwise about the axis")
+        .unit("rad")
+        .otherwise("0");
+    s.vector("about", "a point on the axis; default the origin").unit("m").optional();
+    s.vector("axis", "direction of the axis, in space").entries(3).otherwise("[0, 0, 1]");
+    return s;
+  }
+  void apply(Surface& surface, double time) const {
+    const double origin[3] = {0, 0, 0};
+    const int dim = surface.dimension;
+    const double angle = angle_(origin, dim, time);
+    for (int k = 0; k < surface.point_count(); ++k) {
+      double* x = &surface.points[static_cast<std::size_t>(k) * dim];
+      rotate(x, dim, angle);
+      for (int d = 0; d < dim && !translation_.empty(); ++d) x[d] += translation_[d](origin, dim, time);
+    }
+  }
+
+ private:
+  /// Rodrigues' formula; in the plane the axis is the third one.
+  void rotate(double* x, int dim, double angle) const {
+    if (angle == 0) return;
+    double k[3] = {0, 0, 1}, r[3] = {0, 0, 0};
+    const double length = std::hypot(axis_[0], axis_[1], axis_[2]);
+    for (int d = 0; d < 3 && dim == 3; ++d) k[d] = axis_[d] / length;
+    for (int d = 0; d < dim; ++d) r[d] = x[d] - about_[d];
+    const double along = k[0] * r[0] + k[1] * r[1] + k[2] * r[2];
+    for (int d = 0; d < dim; ++d) {
+      const int e = (d + 1) % 3, f = (d + 2) % 3;
+      x[d] = about_[d] + r[d] * std::cos(angle) + (k[e] * r[f] - k[f] * r[e]) * std::sin(angle) +
+             k[d] * along * (1 - std::cos(angle));
+    }
+  }
+  std::vector<Expression> translation_;
+  Expression angle_;
+  std::vector<double> about_, axis_;
+};
+
+}  // namespace
+
+CutInterface::CutInterface(const Parameters& parameters, const Registry& types)
+    : parameters_(parameters), body_(types.create<Body>("body", parameters.object("body"))) {}
+
+Schema CutInterface::schema() {
+  Schema s("The boundary of a body of given shape and motion, cut out of a field's mesh.");
+  s.reference("field", "The field that lies outside the body", "field");
+  s.typed("body", "The shape of the body", "body");
+  s.object("motion", "How it moves; at rest without it", Motion::schema()).optional();
+  return s;
+}
+
+std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) const {
+  Field& field = *setup.sides[0];
+  const Surface shape =
+      body_->surface(field.mesh().dimension(), [&](const std::string& name) { return setup.mesh(name); });
+  FieldCut::Body moving = [shape](double) { return shape; };
+  if (parameters_.has("motion"))
+    moving = [shape, motion = Motion(parameters_.object("motion"))](double time) {
+      Surface moved = shape;
+      motion.apply(moved, time);
+      return moved;
+    };
+  return std::make_shared<CutBoundary>(field, setup.cut(0).add_body(std::move(moving)), setup.degree);
+}
+
+}  // namespace seam

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/cut/body.hpp"
+#include "seam/interface/interface.hpp"
+
+namespace seam {
+
+/// The boundary of a body of given shape and motion that is cut out of a field's mesh. Side 0 is the field.
+class CutInterface final : public Interface {
+ public:
+  CutInterface(const Parameters& parameters, const Registry& types);
+  static Schema schema();
+  [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("field")}; }
+  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+
+ private:
+  Parameters parameters_;
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace seam

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "seam/cut/surface.hpp"
+#include "seam/mesh/mesh.hpp"
+
+namespace seam {
+
+/// Where a background cell lies: wholly outside all bodies, wholly inside them, or partly.
+enum class CellState : char { fluid, body, cut };
+
+/// Points and weights on a part of a cell. Weights are physical measures: they add up to the part's volume,
+/// or to its area. Those of a volume may be negative and their points may lie inside a body, never outside
+/// the cell's reference coordinates' range.
+struct CutRule {
+  std::vector<double> reference;  ///< [point][dimension], in the background cell
+  std::vector<double> weight;     ///< [point], m^d or m^(d-1)
+  [[nodiscard]] int count() const { return static_cast<int>(weight.size()); }
+};
+
+/// Points on the interface in one cell, split at facet and at cell borders.
+struct InterfaceRule : CutRule {
+  std::vector<double> position;         ///< [point][dimension], m
+  std::vector<double> normal;           ///< [point][dimension], out of the fluid: into the body
+  std::vector<int> body, facet;         ///< [point]
+  std::vector<double> facet_reference;  ///< [point][dimension - 1], the facet's own coordinates: vertex 0 is
+                                        ///< the origin, vertices 1 and 2 the unit points
+};
+
+/// The fluid part of a mesh from which bodies are cut out. The fluid lies outside all bodies; the interface
+/// is exactly its boundary. For every cut cell, to rounding: fluid part + body part = cell; the areas of the
+/// interface and of the fluid parts of the cell's faces add up to zero as vectors; polynomials up to the
+/// degree asked for are integrated exactly.
+class CutMesh {
+ public:
+  explicit CutMesh(const Mesh& mesh);
+  ~CutMesh();
+
+  /// Cuts the owned and ghost cells. Collective. Every rank passes the same bodies.
+  /// @throws Error when a surface is degenerate: no facet, a vertex that does not exist, or one that is not
+  /// finite, or an outline that should be closed and is not, naming body and facet
+  void cut(std::span<const Surface> bodies);
+
+  [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
+  /// Of a local cell.
+  [[nodiscard]] CellState state(int cell) const { return state_[cell]; }
+  /// Local cells that are cut, ascending.
+  [[nodiscard]] const std::vector<int>& cut_cells() const { return cut_cells_; }
+  /// Volume of the fluid part and of a whole cell, and area of the interface in it. The cell must be cut.
+  [[nodiscard]] double fluid_volume(int cell) const;
+  [[nodiscard]] double cell_volume(int cell) const;
+  [[nodiscard]] double interface_area(int cell) const;
+
+  /// Rule for the fluid part of a cut cell, exact for monomials with each exponent up to `degree` in the
+  /// coordinates of an affine cell.
+  void volume_rule(int cell, int degree, CutRule& rule) const;
+  /// Rule for the interface in a cut cell, exact for polynomials of total degree `degree` on each piece.
+  void interface_rule(int cell, int degree, InterfaceRule& rule) const;
+  /// Rule for the fluid part of one face of a cut cell; empty where the face is dry.
+  void face_rule(int cell, int face, int degree, CutRule& rule) const;
+
+ private:
+  struct Geometry;
+  const Mesh* mesh_;
+  std::vector<CellState> state_;
+  std::vector<int> cut_cells_;
+  std::unique_ptr<Geometry> geometry_;
+};
+
+}  // namespace seam

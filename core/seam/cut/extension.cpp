@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/cut/extension.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <map>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/assembly/evaluator.hpp"
+#include "seam/base/diagnostics.hpp"
+#include "seam/term/kernel_term.hpp"
+
+namespace seam {
+namespace {
+
+/// Jumps of the normal derivatives of a scalar between the two cells of a face.
+struct DerivativeJumps {
+  using first = Scalar<0>;
+  using second = Scalar<1>;
+  using Reads = Slots<NormalDerivative<first>, NormalDerivative<second>, SecondNormalDerivative<first>,
+                      SecondNormalDerivative<second>>;
+  using Tests = Reads;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const T slope = s.normal_derivative(first{}) - s.normal_derivative(second{});
+    const T curvature = x.cell_size * x.cell_size *
+                        (s.second_normal_derivative(first{}) - s.second_normal_derivative(second{}));
+    r.normal_derivative(first{}) += slope;
+    r.normal_derivative(second{}) -= slope;
+    r.second_normal_derivative(first{}) += curvature;
+    r.second_normal_derivative(second{}) -= curvature;
+  }
+};
+
+/// The states to be extended: what the time scheme reads of a step's start and its prediction.
+std::vector<std::vector<double>*> levels(Block& block) {
+  return {&block.now.value, &block.now.rate, &block.now.second_rate,
+          &block.old.value, &block.old.rate, &block.old.second_rate};
+}
+
+struct Entry {
+  int row, column;  ///< global nodes
+  double value;
+};
+struct Known {
+  int row;
+  int column;  ///< of the right-hand sides
+  double value;
+};
+
+}  // namespace
+
+/// The equations of new nodes, and what known ones contribute to them.
+struct Extension::System {
+  std::vector<Entry> matrix;
+  std::vector<Known> right_side;
+  std::map<int, int> index;  ///< global node -> row
+
+  /// Everything that all ranks contribute, on every rank.
+  void gather(const Communicator& communicator) {
+    matrix = communicator.gather_all(matrix);
+    right_side = communicator.gather_all(right_side);
+    for (const Entry& entry : matrix) index.emplace(entry.row, 0);
+    int count = 0;
+    for (auto& [node, row] : index) row = count++;
+  }
+
+  /// [row][column of the right-hand sides]; empty when the known nodes do not determine the new ones.
+  [[nodiscard]] Eigen::MatrixXd solve(int columns) const {
+    const int rows = static_cast<int>(index.size());
+    std::vector<Eigen::Triplet<double>> triplets;
+    for (const Entry& entry : matrix)
+      triplets.emplace_back(index.at(entry.row), index.at(entry.column), entry.value);
+    Eigen::SparseMatrix<double> equations(rows, rows);
+    equations.setFromTriplets(triplets.begin(), triplets.end());
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(rows, columns);
+    for (const Known& entry : right_side) right(index.at(entry.row), entry.column) += entry.value;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(equations);
+    if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0) return {};
+    return factor.solve(right);
+  }
+};
+
+Extension::Extension(Field& field) : field_(&field) {}
+Extension::~Extension() = default;
+
+void Extension::extend() {
+  for (Block& block : field_->blocks()) extend_block(block);
+}
+
+void Extension::check_reach(const Block& block) const {
+  const Mesh& mesh = field_->mesh();
+  int lost = -1;
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    if (!field_->active_cells()[c]) continue;
+    const int* nodes = block.space->cell_nodes(c);
+    if (std::none_of(nodes, nodes + block.space->nodes_per_cell(),
+                     [&](int n) { return block.known[n] != 0; }))
+      lost = mesh.global_cell(c);
+  }
+  lost = mesh.communicator().max(lost);
+  if (lost >= 0)
+    throw StepRefused(
+        fmt::format("field '{}': a body uncovers cell {} in one step, which no known state "
+                    "reaches; the step is too long for its motion",
+                    field_->name(), lost));
+}
+
+Field& Extension::carrier(int order) {
+  auto& carrier = carriers_[order - 1];
+  if (!carrier)
+    carrier =
+        std::make_unique<Field>("extension", field_->mesh(), std::vector<Unknown>{{"w", 1, order, 0, ""}});
+  return *carrier;
+}
+
+void Extension::assemble(Block& block, Field& carrier, System& system) {
+  const InteriorFaceDomain faces(carrier, 2 * block.space->order());
+  ElementEvaluator evaluator(faces, {{make_term(DerivativeJumps{}), {Operand{0, "w"}, Operand{1, "w"}}}});
+  const Space& space = *block.space;
+  const int per_cell = space.nodes_per_cell();
+  const auto is_new = [&](int node) { return !block.known[node]; };
+  for (int f = 0; f < faces.size(); ++f) {
+    const int* nodes[2] = {faces.nodes(f, 0, 0), faces.nodes(f, 1, 0)};
+    if (std::none_of(nodes[0], nodes[0] + per_cell, is_new) &&
+        std::none_of(nodes[1], nodes[1] + per_cell, is_new))
+      continue;
+    evaluator.compute(f, TimePoint{}, true);
+    for (const auto& row : evaluator.parts())
+      for (const auto& column : evaluator.parts())
+        for (int a = 0; a < per_cell; ++a)
+          for (int b = 0; b < per_cell && is_new(nodes[row.side][a]); ++b)
+            add(block, nodes[row.side][a], nodes[column.side][b],
+                evaluator.matrix()[static_cast<std::size_t>(row.offset + a) * evaluator.size() +
+                                   column.offset + b],
+                system);
+  }
+}
+
+void Extension::add(Block& block, int row, int column, double value, System& system) {
+  const Space& space = *block.space;
+  if (!block.known[column]) {
+    system.matrix.push_back({space.global_node(row), space.global_node(column), value});
+    return;
+  }
+  const auto states = levels(block);
+  for (std::size_t l = 0; l < states.size(); ++l)
+    for (int c = 0; c < block.size; ++c)
+      system.right_side.push_back({space.global_node(row), static_cast<int>(l) * block.size + c,
+                                   -value * (*states[l])[static_cast<std::size_t>(column) * block.size + c]});
+}
+
+void Extension::extend_block(Block& block) {
+  const Space& space = *block.space;
+  const Communicator& communicator = field_->mesh().communicator();
+  bool any_new = false;
+  for (int n = 0; n < space.owned_nodes(); ++n) any_new = any_new || (block.active[n] && !block.known[n]);
+  if (communicator.any(any_new)) {
+    check_reach(block);
+    Field& scalar = carrier(space.order());
+    scalar.occupy(field_->active_cells());
+    // Few nodes come alive in a step: every rank solves for all of them, and all get the same bits.
+    System system;
+    assemble(block, scalar, system);
+    system.gather(communicator);
+    set_states(block, system);
+  }
+  block.known = block.active;
+}
+
+void Extension::set_states(Block& block, const System& system) {
+  const Space& space = *block.space;
+  const auto states = levels(block);
+  const Eigen::MatrixXd values = system.solve(static_cast<int>(states.size()) * block.size);
+  bool complete = values.rows() > 0;
+  for (int n = 0; n < space.owned_nodes() && complete; ++n) {
+    if (!block.active[n] || block.known[n]) continue;
+    const auto found = system.index.find(space.global_node(n));
+    complete = found != system.index.end();
+    for (std::size_t l = 0; l < states.size() && complete; ++l)
+      for (int c = 0; c < block.size; ++c)
+        (*states[l])[static_cast<std::size_t>(n) * block.size + c] =
+            values(found->second, static_cast<int>(l) * block.size + c);
+  }
+  if (space.mesh().communicator().any(!complete))
+    throw StepRefused(
+        fmt::format("field '{}': known states do not determine those of {} nodes that came "
+                    "alive",
+                    field_->name(), system.index.size()));
+  for (auto* level : states) space.halo().update(*level, block.size);
+}
+
+}  // namespace seam

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "seam/field/field.hpp"
+
+namespace seam {
+
+/// Extends the states of a field smoothly to nodes that have just come alive: of all extensions, the one with
+/// the smallest jumps of normal derivatives across the faces around the new nodes. First derivatives weigh 1,
+/// second ones h^2 (thesis (3.10), (3.11)).
+class Extension {
+ public:
+  explicit Extension(Field& field);
+  ~Extension();
+
+  /// Gives values to all nodes that are active and not known, in the present and the old states alike; then
+  /// exactly the active nodes are known. Collective.
+  /// @throws StepRefused when an active cell consists of new nodes only: the body uncovered more than a layer
+  /// of cells
+  void extend();
+
+ private:
+  struct System;
+  void check_reach(const Block& block) const;
+  static void assemble(Block& block, Field& carrier, System& system);
+  static void add(Block& block, int row, int column, double value, System& system);
+  void set_states(Block& block, const System& system);
+  [[nodiscard]] Field& carrier(int order);
+  void extend_block(Block& block);
+  Field* field_;
+  std::unique_ptr<Field> carriers_[2];  ///< a scalar field per order, on the same mesh
+};
+
+}  // namespace seam

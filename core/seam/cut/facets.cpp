@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/cut/facets.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "seam/base/diagnostics.hpp"
+
+namespace seam::cutting {
+namespace {
+
+void check_indices(const Surface& surface, int body, int dimension) {
+  if (surface.dimension != dimension)
+    throw Error(fmt::format("body {}: its surface has dimension {}, the mesh it cuts {}", body,
+                            surface.dimension, dimension));
+  if (surface.facets.empty())
+    throw Error(
+        fmt::format("body {}: its surface has no facet; give at least one, or leave the body out", body));
+  for (std::size_t k = 0; k < surface.facets.size(); ++k)
+    if (surface.facets[k] < 0 || surface.facets[k] >= surface.point_count())
+      throw Error(fmt::format("body {}, facet {}: vertex {} does not exist; the surface has {} vertices",
+                              body, k / dimension, surface.facets[k], surface.point_count()));
+  for (std::size_t k = 0; k < surface.facets.size(); ++k)
+    for (int i = 0; i < dimension; ++i) {
+      const double x = surface.points[static_cast<std::size_t>(surface.facets[k]) * dimension + i];
+      if (!std::isfinite(x))
+        throw Error(
+            fmt::format("body {}, facet {}: vertex {} has the coordinate {}; expected a finite number", body,
+                        k / dimension, surface.facets[k], x));
+    }
+}
+
+Vector position_of(const Surface& surface, int vertex) {
+  Vector x{};
+  for (int i = 0; i < surface.dimension; ++i) {
+    const double value = surface.points[vertex * surface.dimension + i];
+    if (std::isfinite(value)) x[i] = value;  // otherwise no facet uses the vertex
+  }
+  return x;
+}
+
+/// A unit vector, or zero where the facet has no extent.
+Vector normal_into_body(int dimension, const Vector& p, const Vector& q, const Vector& r) {
+  const Vector out = dimension == 2 ? Vector{q[1] - p[1], p[0] - q[0], 0} : cross(q - p, r - p);
+  const double length = std::sqrt(dot(out, out));
+  return length > 0 ? -1 / length * out : Vector{};
+}
+
+/// Rims of a surface: boundaries of facets (points in the plane, edges in space) that do not cancel. Vertices
+/// at the same place count as one.
+struct Rim {
+  std::array<int, 2> vertex;  ///< in the plane twice the same
+  int facet;                  ///< index into Facets::list
+  int sign;                   ///< -1: where a segment starts
+};
+
+class RimFinder {
+ public:
+  RimFinder(const Facets& facets, int first_facet) : facets_(facets) {
+    for (int f = first_facet; f < static_cast<int>(facets.list.size()); ++f) {
+      const auto& v = facets.list[f].vertex;
+      if (facets.dimension == 2) {
+        add({{v[0], v[0]}, f, -1});
+        add({{v[1], v[1]}, f, 1});
+      } else {
+        for (int k = 0; k < 3; ++k) add({{v[k], v[(k + 1) % 3]}, f, 1});
+      }
+    }
+  }
+  [[nodiscard]] std::vector<Rim> rims() const {
+    std::vector<Rim> result;
+    for (const auto& [key, entry] : open_)
+      if (entry.first != 0) result.push_back(entry.second);
+    return result;
+  }
+
+ private:
+  void add(Rim rim) {
+    LatticePoint a = facets_.point[rim.vertex[0]], b = facets_.point[rim.vertex[1]];
+    int sign = rim.sign;
+    if (b < a) {
+      std::swap(a, b);
+      sign = -sign;
+    }
+    auto& entry = open_[{a, b}];
+    entry.first += sign;
+    // Of those that cancel in pairs the one that remains has the sign of the sum.
+    if (entry.first == sign) entry.second = rim;
+  }
+  const Facets& facets_;
+  std::map<std::pair<LatticePoint, LatticePoint>, std::pair<int, Rim>> open_;
+};
+
+int append_point(Facets& facets, const Vector& x) {
+  facets.position.push_back(x);
+  facets.point.push_back(facets.lattice.round(x));
+  return static_cast<int>(facets.position.size()) - 1;
+}
+
+void append_facet(Facets& facets, const std::array<int, 3>& v, int body, int facet, const Vector& normal) {
+  const LatticePoint &p = facets.point[v[0]], &q = facets.point[v[1]], &r = facets.point[v[2]];
+  if (facets.dimension == 2 ? p == q : collinear(p, q, r)) return;
+  facets.list.push_back({v, body, facet, normal});
+}
+
+/// Direction out of the facet, in its plane, across its boundary part `rim`; of the length of the facet.
+Vector outward(const Facets& facets, const Rim& rim) {
+  const auto& v = facets.list[rim.facet].vertex;
+  const Vector &a = facets.position[v[0]], &b = facets.position[v[1]];
+  if (facets.dimension == 2) return rim.sign > 0 ? b - a : a - b;
+  const Vector edge = facets.position[rim.vertex[1]] - facets.position[rim.vertex[0]];
+  return -1 * cross(facets.list[rim.facet].normal, edge);
+}
+
+/// Sews a narrow strip to the rim.
+void prolong(Facets& facets, const std::vector<Rim>& rims) {
+  constexpr double share = 1e-6;  // of a facet: beyond all rounding, too little to reach into the mesh again
+  std::map<LatticePoint, Vector> shift;
+  for (const Rim& rim : rims)
+    for (int k = 0; k < (facets.dimension == 2 ? 1 : 2); ++k) {
+      Vector& s = shift[facets.point[rim.vertex[k]]];
+      s = s + share * outward(facets, rim);
+    }
+  std::map<LatticePoint, int> prolonged;
+  for (const auto& [point, by] : shift)
+    prolonged[point] = append_point(facets, facets.lattice.position(point) + by);
+  for (const Rim& rim : rims) {
+    const Facet source = facets.list[rim.facet];
+    const int a = rim.vertex[0], b = rim.vertex[1];
+    const int c = prolonged[facets.point[a]], d = prolonged[facets.point[b]];
+    if (facets.dimension == 2) {
+      append_facet(facets, rim.sign > 0 ? std::array{a, c, c} : std::array{c, a, a}, source.body,
+                   source.facet, source.normal);
+    } else {
+      append_facet(facets, {b, a, c}, source.body, source.facet, source.normal);
+      append_facet(facets, {b, c, d}, source.body, source.facet, source.normal);
+    }
+  }
+}
+
+double enclosed(const Facets& facets, int first_facet) {
+  const Vector origin = facets.position[facets.list[first_facet].vertex[0]];
+  double sum = 0;
+  for (int f = first_facet; f < static_cast<int>(facets.list.size()); ++f) {
+    const auto& v = facets.list[f].vertex;
+    const Vector a = facets.position[v[0]] - origin, b = facets.position[v[1]] - origin;
+    sum +=
+        facets.dimension == 2 ? a[0] * b[1] - a[1] * b[0] : dot(cross(a, b), facets.position[v[2]] - origin);
+  }
+  return sum;
+}
+
+void append_body(Facets& facets, const Surface& surface, int body) {
+  const int dim = facets.dimension, first_point = static_cast<int>(facets.point.size());
+  const int first_facet = static_cast<int>(facets.list.size());
+  for (int v = 0; v < surface.point_count(); ++v) append_point(facets, position_of(surface, v));
+  for (int f = 0; f < surface.facet_count(); ++f) {
+    std::array<int, 3> v{};
+    for (int k = 0; k < 3; ++k) v[k] = first_point + surface.facets[f * dim + std::min(k, dim - 1)];
+    const Vector normal =
+        normal_into_body(dim, facets.position[v[0]], facets.position[v[1]], facets.position[v[2]]);
+    append_facet(facets, v, body, f, normal);
+  }
+  const std::vector<Rim> rims = RimFinder(facets, first_facet).rims();
+  if (surface.closed && !rims.empty()) {
+    const Rim& rim = rims.front();
+    throw Error(fmt::format(
+        "body {}: its surface is not closed at facet {}, near ({}); close it, or declare it open if its rim "
+        "lies outside the mesh",
+        body, facets.list[rim.facet].facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
+  }
+  const bool empty = first_facet == static_cast<int>(facets.list.size());
+  facets.far.push_back(surface.closed && !empty && enclosed(facets, first_facet) < 0 ? 1 : 0);
+  facets.closed.push_back(surface.closed);
+  if (!surface.closed) prolong(facets, rims);
+}
+
+}  // namespace
+
+Facets collect_facets(const Outline& outline, std::span<const Surface> bodies) {
+  Facets facets;
+  facets.dimension = outline.dimension;
+  Vector low = outline.low, high = outline.high;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    check_indices(bodies[b], static_cast<int>(b), outline.dimension);
+    for (int v = 0; v < bodies[b].point_count(); ++v) {
+      const Vector x = position_of(bodies[b], v);
+      for (int i = 0; i < outline.dimension; ++i) {
+        low[i] = std::min(low[i], x[i]);
+        high[i] = std::max(high[i], x[i]);
+      }
+    }
+  }
+  facets.lattice = Lattice(low, high);
+  for (std::size_t b = 0; b < bodies.size(); ++b) append_body(facets, bodies[b], static_cast<int>(b));
+  return facets;
+}
+
+int crossing(const Facets& facets, const Facet& facet, const LatticePoint& a, const LatticePoint& b) {
+  const LatticePoint &p = facets.point[facet.vertex[0]], &q = facets.point[facet.vertex[1]];
+  if (facets.dimension == 2) {
+    const int side_a = side_of_facet(p, q, a), side_b = side_of_facet(p, q, b);
+    if (side_a == side_b) return 0;
+    return side_of_mesh_edge(a, b, p) == side_of_mesh_edge(a, b, q) ? 0 : side_b;
+  }
+  const LatticePoint& r = facets.point[facet.vertex[2]];
+  const int side_a = side_of_facet(p, q, r, a), side_b = side_of_facet(p, q, r, b);
+  if (side_a == side_b) return 0;
+  const int turn = side_of_edges(a, b, p, q);
+  if (side_of_edges(a, b, q, r) != turn || side_of_edges(a, b, r, p) != turn) return 0;
+  return side_a;  // the normal points out of the body: below is inside
+}
+
+namespace {
+
+Vector centre_of(const Facets& facets, const Facet& f) {
+  Vector centre{};
+  for (int k = 0; k < facets.dimension; ++k)
+    centre = centre + 1.0 / facets.dimension * facets.position[f.vertex[k]];
+  return centre;
+}
+
+constexpr int all_bodies = -1;
+
+bool counts(const Facet& f, int body) { return body == all_bodies || f.body == body; }
+
+const Facet* closest_facet(const Facets& facets, int body, const Vector& position) {
+  const Facet* closest = nullptr;
+  double distance = std::numeric_limits<double>::max();
+  for (const Facet& f : facets.list) {
+    if (!counts(f, body)) continue;
+    const Vector d = position - centre_of(facets, f);
+    if (dot(d, d) >= distance) continue;
+    distance = dot(d, d);
+    closest = &f;
+  }
+  return closest;
+}
+
+/// Sum of the crossings on the way, all facets but one.
+int crossings(const Facets& facets, int body, const Facet* except, const LatticePoint& from,
+              const LatticePoint& to) {
+  int sum = 0;
+  for (const Facet& f : facets.list)
+    if (counts(f, body) && &f != except) sum += crossing(facets, f, from, to);
+  return sum;
+}
+
+/// From the side on which the vertex lies of a facet that is not far, and the facets before that one.
+int winding_from_facet(const Facets& facets, int body, const LatticePoint& vertex) {
+  const Facet* facet = closest_facet(facets, body, facets.lattice.position(vertex));
+  if (facet == nullptr) return 0;
+  const LatticePoint &p = facets.point[facet->vertex[0]], &q = facets.point[facet->vertex[1]];
+  const bool behind = facets.dimension == 2 ? side_of_facet(p, q, vertex) > 0
+                                            : side_of_facet(p, q, facets.point[facet->vertex[2]], vertex) < 0;
+  const LatticePoint end = facets.lattice.round(centre_of(facets, *facet));
+  return (behind ? 1 : 0) - crossings(facets, body, facet, vertex, end);
+}
+
+}  // namespace
+
+int winding(const Facets& facets, int body, const LatticePoint& vertex) {
+  if (!facets.closed[body]) return winding_from_facet(facets, body, vertex);
+  LatticePoint far_away = vertex;
+  far_away.x[0] = std::int64_t{1} << 51;
+  return facets.far[body] - crossings(facets, body, nullptr, vertex, far_away);
+}
+
+int coverage_at(const Facets& facets, const LatticePoint& vertex) {
+  return winding_from_facet(facets, all_bodies, vertex);
+}
+
+}  // namespace seam::cutting

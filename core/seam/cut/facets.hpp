@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "seam/cut/lattice.hpp"
+#include "seam/cut/outline.hpp"
+#include "seam/cut/surface.hpp"
+
+namespace seam::cutting {
+
+/// A segment or triangle of the surfaces that cut.
+struct Facet {
+  std::array<int, 3> vertex{};  ///< of Facets
+  int body = 0, facet = 0;      ///< where it comes from
+  Vector normal{};              ///< unit, into the body
+};
+
+/// The boundaries of all bodies on the lattice, bodies behind each other in order.
+struct Facets {
+  int dimension = 2;
+  Lattice lattice;
+  std::vector<LatticePoint> point;  ///< [vertex]
+  std::vector<Vector> position;     ///< [vertex], m
+  std::vector<Facet> list;          ///< without those that have no extent on the lattice
+  /// Value of a body's winding number far away: 1 for a closed surface turned inside out, whose body is what
+  /// lies outside of it.
+  std::vector<int> far;
+  std::vector<bool> closed;  ///< [body]
+};
+
+/// Checks the surfaces and puts them on a lattice that covers them and the mesh. The rim of an open surface
+/// is prolonged a little, so that it also ends outside of the mesh when it was meant to end on its boundary.
+/// @throws Error as CutMesh::cut does
+Facets collect_facets(const Outline& outline, std::span<const Surface> bodies);
+
+/// +1 when a step from mesh vertex a to b passes the facet from front to back, that is into the body, -1 the
+/// other way, 0 when it misses.
+int crossing(const Facets& facets, const Facet& facet, const LatticePoint& a, const LatticePoint& b);
+
+/// Winding number of a body about a vertex of the mesh: positive inside. Visits all facets.
+int winding(const Facets& facets, int body, const LatticePoint& vertex);
+/// How many bodies cover a vertex of the mesh, 0 or 1, when no facet lies in another body. Visits all facets.
+int coverage_at(const Facets& facets, const LatticePoint& vertex);
+
+}  // namespace seam::cutting

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "seam/cut/cell_search.hpp"
+#include "seam/cut/cut_mesh.hpp"
+#include "seam/cut/facets.hpp"
+#include "seam/cut/outline.hpp"
+
+namespace seam::cutting {
+
+/// A part of one facet in one cell: a segment in the facet's direction, or a polygon, counter-clockwise seen
+/// from outside the body.
+struct Piece {
+  int body, facet;
+  int first, count;  ///< of CutCell::points
+  Vector normal;     ///< unit, into the body
+  double scale = 1;  ///< of its area
+  bool handed_over =
+      false;  ///< stems from a neighbour too thin to be kept; no part of the cell's own boundary
+};
+
+/// A signed part of one side of a cell; all of them add up to the side's fluid part.
+struct WetPart {
+  int face;
+  std::array<Vector, 3> corner;  ///< segment (two of them) or triangle, oriented as the side
+  double sign = 1;
+};
+
+/// Where a facet passes through a side (in the plane) or an edge (in space) of a cell.
+struct Crossing {
+  int place;     ///< side of Outline in the plane, edge of Outline in space
+  int step;      ///< +1 into the body when walking along it, -1 out of it
+  double share;  ///< of its length
+  Vector position;
+};
+
+struct CutCell {
+  int cell = -1;
+  std::vector<Vector> points;
+  std::vector<Piece> pieces;
+  std::vector<WetPart> wet;
+  std::vector<Crossing> crossings;
+  unsigned dry_faces = 0;  ///< bit f: what lies behind face f was too thin to be kept
+  double fluid_volume = 0, volume = 0, interface_area = 0;
+};
+
+/// Vector area of a part: of a simplex in the direction of its orientation (in the plane to the right).
+Vector vector_area(int dimension, const Vector& a, const Vector& b, const Vector& c);
+/// Vector area of a piece, out of the fluid.
+Vector vector_area(int dimension, const CutCell& cell, const Piece& piece);
+
+/// Calls visit(corners, sign) for planar simplices that bound the cell's fluid part; times the sign they are
+/// oriented outward.
+template <class Visit>
+void visit_boundary(int dimension, const CutCell& cell, const Visit& visit) {
+  for (const WetPart& w : cell.wet) visit(w.corner, w.sign);
+  for (const Piece& p : cell.pieces) {
+    if (p.handed_over) continue;
+    const Vector* x = &cell.points[p.first];
+    if (dimension == 2)
+      visit(std::array{x[0], x[1], x[1]}, -1.0);
+    else
+      for (int k = 1; k + 1 < p.count; ++k) visit(std::array{x[0], x[k], x[k + 1]}, -1.0);
+  }
+}
+
+}  // namespace seam::cutting
+
+namespace seam {
+
+struct CutMesh::Geometry {
+  explicit Geometry(const Mesh& mesh) : outline(mesh), search(outline, mesh.cells()) {}
+
+  cutting::Outline outline;
+  cutting::CellSearch search;
+  std::vector<Surface> bodies;
+  cutting::Facets facets;
+  std::vector<cutting::LatticePoint> vertex;  ///< of the outline
+  std::vector<int> coverage;                  ///< [vertex]: 0 in the fluid
+  std::vector<cutting::CutCell> cells;        ///< ascending
+  std::vector<int> index;                     ///< [cell]: into cells, -1 for others
+  /// @throws std::logic_error when the cell is not cut
+  [[nodiscard]] const cutting::CutCell& at(int cell) const;
+};
+
+}  // namespace seam

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "seam/cut/cell_map.hpp"
+#include "seam/cut/fitted_rule.hpp"
+#include "seam/cut/geometry.hpp"
+#include "seam/cut/moments.hpp"
+#include "seam/mesh/lagrange.hpp"
+#include "seam/mesh/quadrature.hpp"
+
+namespace seam {
+namespace {
+
+using namespace cutting;
+
+void append(int dimension, const Vector& x, std::vector<double>& values) {
+  values.insert(values.end(), x.begin(), x.begin() + dimension);
+}
+
+void clear(InterfaceRule& rule) {
+  for (auto* values : {&rule.reference, &rule.weight, &rule.position, &rule.normal, &rule.facet_reference})
+    values->clear();
+  rule.body.clear();
+  rule.facet.clear();
+}
+
+/// Coordinates of a position in the frame of a facet: vertex 0 the origin, the others the unit points.
+std::array<double, 2> on_facet(const Surface& surface, int facet, const Vector& x) {
+  const int dim = surface.dimension;
+  std::array<Vector, 3> v{};
+  for (int k = 0; k < dim; ++k)
+    for (int i = 0; i < dim; ++i)
+      v[k][i] = surface.points[static_cast<std::size_t>(surface.facets[facet * dim + k]) * dim + i];
+  const Vector a = v[1] - v[0], r = x - v[0];
+  if (dim == 2) return {std::clamp(dot(r, a) / dot(a, a), 0.0, 1.0), 0.0};
+  const Vector b = v[2] - v[0], normal = cross(a, b);
+  const double square = dot(normal, normal);
+  std::array<double, 2> s{std::max(0.0, dot(cross(r, b), normal) / square),
+                          std::max(0.0, dot(cross(a, r), normal) / square)};
+  const double sum = std::max(1.0, s[0] + s[1]);
+  return {s[0] / sum, s[1] / sum};
+}
+
+/// Onto the closest point of the reference cell, as good as its coordinates allow.
+Vector into_cell(CellType type, Vector reference) {
+  double sum = 0;
+  for (double& x : reference) {
+    x = std::clamp(x, 0.0, 1.0);
+    sum += x;
+  }
+  const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
+  return simplex && sum > 1 ? 1 / sum * reference : reference;
+}
+
+}  // namespace
+
+void CutMesh::volume_rule(int cell, int degree, CutRule& rule) const {
+  static thread_local std::vector<double> moment;
+  const int dim = mesh_->dimension();
+  const CellMap map(*mesh_, cell);
+  const FittedRule& fitted = FittedRule::get(dim, degree);
+  volume_moments(dim, map, geometry_->at(cell), geometry_->outline.centre(cell), degree, moment);
+  rule.reference = fitted.points();
+  rule.weight.resize(fitted.count());
+  fitted.weights(moment.data(), rule.weight.data());
+}
+
+void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule) const {
+  static thread_local std::vector<double> moment;
+  const CutCell& cut = geometry_->at(cell);
+  rule.reference.clear();
+  rule.weight.clear();
+  const auto on_face = [&](const WetPart& w) { return w.face == face; };
+  if ((cut.dry_faces >> face & 1U) != 0 || std::none_of(cut.wet.begin(), cut.wet.end(), on_face)) return;
+  const CellTopology& shape = topology(mesh_->type());
+  const int dim = mesh_->dimension();
+  const auto corner = [&](int k) {
+    Vector x{};
+    for (int i = 0; i < dim; ++i) x[i] = shape.node_coordinates[shape.faces[face][k] * dim + i];
+    return x;
+  };
+  const int last = static_cast<int>(shape.faces[face].size()) - 1;
+  const FittedRule& fitted = FittedRule::get(dim - 1, degree);
+  face_moments(dim, CellMap(*mesh_, cell), cut, face, corner(0),
+               {corner(1) - corner(0), corner(last) - corner(0)}, degree, moment);
+  rule.weight.resize(fitted.count());
+  fitted.weights(moment.data(), rule.weight.data());
+  rule.reference.resize(static_cast<std::size_t>(fitted.count()) * dim);
+  for (int q = 0; q < fitted.count(); ++q)
+    face_to_cell(shape, face, &fitted.points()[q * (dim - 1)], &rule.reference[q * dim]);
+}
+
+void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule) const {
+  const CutCell& cut = geometry_->at(cell);
+  const int dim = mesh_->dimension();
+  const CellMap map(*mesh_, cell);
+  const Quadrature& base = quadrature(dim == 2 ? CellType::segment : CellType::triangle, degree);
+  clear(rule);
+  const auto add = [&](const Piece& piece, const Vector& position, double weight) {
+    Vector reference = map.to_reference(position), x = position;
+    if (piece.handed_over) {
+      reference = into_cell(mesh_->type(), reference);
+      x = map.to_space(reference);
+    }
+    const auto s = on_facet(geometry_->bodies[piece.body], piece.facet, position);
+    append(dim, reference, rule.reference);
+    append(dim, x, rule.position);
+    append(dim, piece.normal, rule.normal);
+    rule.weight.push_back(weight);
+    rule.body.push_back(piece.body);
+    rule.facet.push_back(piece.facet);
+    rule.facet_reference.insert(rule.facet_reference.end(), s.begin(), s.begin() + dim - 1);
+  };
+  for (const Piece& piece : cut.pieces) {
+    const Vector* x = &cut.points[piece.first];
+    for (int k = 1; k + (dim == 3 ? 1 : 0) < piece.count; ++k) {
+      const Vector &a = x[k], &b = x[dim == 3 ? k + 1 : k];
+      const double area = -piece.scale * dot(vector_area(dim, x[0], a, b), piece.normal);
+      if (area == 0) continue;
+      for (int q = 0; q < base.count(); ++q) {
+        const double* s = &base.points[q * base.dimension];
+        const Vector position = x[0] + s[0] * (a - x[0]) + (dim == 3 ? s[1] : 0.0) * (b - x[0]);
+        add(piece, position, area * base.weights[q] * (dim == 3 ? 2 : 1));
+      }
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "seam/cut/geometry.hpp"
+
+namespace seam::cutting {
+
+/// Share of a cell's volume below which a fluid part is not kept.
+constexpr double smallest_part = 1e-11;
+
+/// Volumes and areas of a cut cell from its boundary.
+void measure(const Outline& outline, CutCell& cell);
+
+/// Takes cut cells out whose fluid part is too small: they become body. Their pieces go to the neighbours
+/// behind their fluid faces, laid onto those faces with the faces' areas, so that every neighbour's interface
+/// and remaining fluid faces still close. A neighbour that was not cut becomes so. Cut cells whose interface
+/// is negligible become fluid. Sets `state` of all cells concerned.
+void settle_slivers(const Outline& outline, std::vector<CutCell>& cells, std::vector<CellState>& state);
+
+}  // namespace seam::cutting

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/derived.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace seam {
+namespace {
+
+/// A part of a series with its times.
+struct Window {
+  std::span<const double> time, value;
+
+  /// Time average by the trapezoidal rule.
+  [[nodiscard]] double mean() const {
+    double sum = 0;
+    for (std::size_t k = 1; k < time.size(); ++k)
+      sum += (time[k] - time[k - 1]) * (value[k] + value[k - 1]) / 2;
+    return sum / (time.back() - time.front());
+  }
+  /// Of the upward crossings of the mean, interpolated between the steps; 0 when there are fewer than two.
+  [[nodiscard]] double frequency() const {
+    const double level = mean();
+    double first = 0, last = 0;
+    int crossings = 0;
+    for (std::size_t k = 1; k < time.size(); ++k) {
+      if (value[k - 1] >= level || value[k] < level) continue;
+      const double part = (level - value[k - 1]) / (value[k] - value[k - 1]);
+      last = time[k - 1] + part * (time[k] - time[k - 1]);
+      if (crossings++ == 0) first = last;
+    }
+    return crossings > 1 ? (crossings - 1) / (last - first) : 0;
+  }
+};
+
+double statistic(const Parameters& p, const Results& results) {
+  const auto series = results.series.find(p.text("of"));
+  if (series == results.series.end())
+    throw Error(p.where("of"), fmt::format("no series '{}' was recorded", p.text("of")));
+  const double from = p.has("from") ? p.number("from") : results.time.front();
+  const std::size_t first =
+      std::lower_bound(results.time.begin(), results.time.end(), from) - results.time.begin();
+  if (first + 2 > results.time.size())
+    throw Error(p.where("from"), fmt::format("fewer than two steps were recorded from t = {} on", from));
+  const Window window{std::span(results.time).subspan(first), std::span(series->second).subspan(first)};
+  const std::string& what = p.text("what");
+  if (what == "maximum") return *std::max_element(window.value.begin(), window.value.end());
+  if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
+  return what == "mean" ? window.mean() : window.frequency();
+}
+
+}  // namespace
+
+void record_formulas(const Scene& scene, Results& results) {
+  for (const auto& [name, p] : scene.root.object("output").map("formulas")) {
+    std::map<std::string, double> known = scene.parameters;
+    for (const auto& [series, values] : results.series)
+      if (series.find('.') == std::string::npos && !values.empty()) known[series] = values.back();
+    try {
+      results.series[name].push_back(evaluate_constant(p.text("value"), known));
+    } catch (const Error& error) {
+      throw Error(p.where(), error.what());
+    }
+  }
+}
+
+void finish_statistics(const Scene& scene, Results& results) {
+  for (const auto& [name, p] : scene.root.object("output").map("statistics"))
+    results.once[name] = statistic(p, results);
+}
+
+}  // namespace seam

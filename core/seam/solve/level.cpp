@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/solve/level.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numeric>
+
+#include "seam/cut/cut_mesh.hpp"
+
+namespace seam {
+namespace {
+
+constexpr int none = std::numeric_limits<int>::max();
+
+/// Labels connected nodes by their lowest global number. Cells that share a node are connected.
+class ConnectedNodes {
+ public:
+  ConnectedNodes(const Field& field, const Block& block) : field_(field), space_(*block.space) {
+    label_.resize(space_.nodes());
+    for (int n = 0; n < space_.nodes(); ++n) label_[n] = space_.global_node(n);
+    bool changed = true;
+    while (space_.mesh().communicator().any(changed)) {
+      changed = merge();
+      // Labels travel from owners to ghosts, one rank further each time.
+      std::vector<int> before = label_;
+      space_.halo().update(label_, 1);
+      changed = changed || before != label_;
+    }
+  }
+  [[nodiscard]] int operator[](int node) const { return label_[node]; }
+
+ private:
+  /// Gives the nodes of each local component their lowest label.
+  bool merge() {
+    std::vector<int> parent(space_.nodes());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&](int n) {
+      while (parent[n] != n) n = parent[n] = parent[parent[n]];
+      return n;
+    };
+    for (int c = 0; c < space_.mesh().cells(); ++c) {
+      if (!field_.active_cells()[c]) continue;
+      const int* nodes = space_.cell_nodes(c);
+      for (int a = 1; a < space_.nodes_per_cell(); ++a) parent[root(nodes[a])] = root(nodes[0]);
+    }
+    std::vector<int> lowest(space_.nodes(), none);
+    for (int n = 0; n < space_.nodes(); ++n) lowest[root(n)] = std::min(lowest[root(n)], label_[n]);
+    bool changed = false;
+    for (int n = 0; n < space_.nodes(); ++n) {
+      changed = changed || label_[n] != lowest[root(n)];
+      label_[n] = lowest[root(n)];
+    }
+    return changed;
+  }
+  const Field& field_;
+  const Space& space_;
+  std::vector<int> label_;
+};
+
+/// Labels of the parts that reach an open boundary, on every rank.
+std::vector<int> open_parts(const Field& field, const Space& space, const ConnectedNodes& label,
+                            const std::vector<std::string>& boundaries) {
+  std::vector<int> open;
+  CutRule rule;
+  for (const std::string& name : boundaries)
+    for (const CellFace& face : field.mesh().boundary(name)) {
+      if (!field.active_cells()[face.cell] || face.cell >= field.mesh().owned_cells()) continue;
+      if (field.is_cut(face.cell)) {
+        field.cut()->face_rule(face.cell, face.face, 1, rule);
+        if (rule.count() == 0) continue;
+      }
+      open.push_back(label[space.cell_nodes(face.cell)[0]]);
+    }
+  std::sort(open.begin(), open.end());
+  open.erase(std::unique(open.begin(), open.end()), open.end());
+  return field.mesh().communicator().gather_all(open);
+}
+
+/// The node that holds each closed part, by label.
+std::map<int, int> choose_nodes(const Field& field, const Space& space, const ConnectedNodes& label,
+                                const std::vector<int>& open) {
+  struct Candidate {
+    int label, node;
+    bool whole;
+  };
+  std::map<int, Candidate> best;
+  const auto offer = [&](const Candidate& c) {
+    const auto [found, is_new] = best.emplace(c.label, c);
+    Candidate& known = found->second;
+    if (!is_new && (c.whole != known.whole ? c.whole : c.node < known.node)) known = c;
+  };
+  for (int c = 0; c < field.mesh().owned_cells(); ++c) {
+    if (!field.active_cells()[c]) continue;
+    const int* nodes = space.cell_nodes(c);
+    if (std::find(open.begin(), open.end(), label[nodes[0]]) != open.end()) continue;
+    for (int a = 0; a < space.nodes_per_cell(); ++a)
+      offer({label[nodes[a]], space.global_node(nodes[a]), !field.is_cut(c)});
+  }
+  std::vector<Candidate> mine;
+  for (const auto& [part, candidate] : best) mine.push_back(candidate);
+  for (const Candidate& c : field.mesh().communicator().gather_all(mine)) offer(c);
+  std::map<int, int> nodes;
+  for (const auto& [part, candidate] : best) nodes[part] = candidate.node;
+  return nodes;
+}
+
+}  // namespace
+
+void place_levels(FieldEntry& entry) {
+  Field& field = *entry.field;
+  for (LevelCondition& level : entry.levels) {
+    Block& block = field.blocks()[level.block];
+    const auto unknown_of = [&](int node) {
+      return static_cast<std::size_t>(node) * block.size + level.component;
+    };
+    for (const int node : level.nodes) block.prescribed[unknown_of(node)] = 0;
+    level.nodes.clear();
+    const ConnectedNodes label(field, block);
+    const std::vector<int> open = open_parts(field, *block.space, label, level.open_boundaries);
+    for (const auto& [part, global] : choose_nodes(field, *block.space, label, open)) {
+      const int node = block.space->local_node(global);
+      if (node < 0) continue;
+      level.nodes.push_back(node);
+      block.prescribed[unknown_of(node)] = 1;
+      block.prescribed_value[unknown_of(node)] = level.value;
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fluid.hpp"
+
+#include <fmt/format.h>
+
+#include "quantities.hpp"
+#include "weak_condition.hpp"
+
+namespace seam::fluid {
+namespace {
+
+const std::vector<std::string> velocity_only{"velocity"};
+const std::vector<std::string> both{"velocity", "pressure"};
+
+/// What a condition gives, by its key. @throws Error unless it is exactly one thing
+std::string kind_of(const Parameters& condition) {
+  std::vector<std::string> kinds;
+  for (const char* key : {"velocity", "traction", "outflow"})
+    if (condition.has(key)) kinds.emplace_back(key);
+  if (condition.boolean("slip")) kinds.emplace_back("slip");
+  if (kinds.size() != 1)
+    throw Error(condition.where(),
+                fmt::format("found {}, expected one of velocity, slip, traction and outflow",
+                            kinds.empty() ? "no condition" : "several conditions"));
+  for (const char* key : {"slip_length", "wall_traction", "adjoint", "penalty"})
+    if (condition.given(key) && !condition.boolean("weak"))
+      throw Error(condition.where(key), fmt::format("`{}` belongs to a velocity with `weak: true`", key));
+  if (condition.boolean("weak") && kinds[0] != "velocity")
+    throw Error(condition.where("weak"), "only a velocity can be imposed weakly");
+  if (condition.given("backflow") && kinds[0] != "outflow")
+    throw Error(condition.where("backflow"), "`backflow` belongs to an outflow");
+  return kinds[0];
+}
+
+/// True when the condition gives the velocity across the boundary.
+bool confines(const FieldSetup& setup, const Parameters& condition, const std::string& boundary) {
+  if (condition.boolean("slip")) return true;
+  if (!condition.has("velocity")) return false;
+  const int axis = setup.boundary_axis(boundary);
+  if (axis >= 0) return condition.component_given("velocity", axis);
+  bool all = true;
+  for (int d = 0; d < setup.dimension(); ++d) all = all && condition.component_given("velocity", d);
+  return all;
+}
+
+}  // namespace
+
+Fluid::Fluid(const Parameters& p, const Registry& registry)
+    : parameters_(p),
+      stabilisation_(registry.create<Stabilisation>("fluid_stabilisation", p.object("stabilisation"))),
+      flow_{p.number("density"), p.number("viscosity"), p.boolean("convection")},
+      order_(static_cast<int>(p.integer("order"))) {
+  if (order_ > stabilisation_->highest_order())
+    throw Error(p.where("stabilisation"),
+                fmt::format("`{}` is consistent up to order {}; `order: {}` needs `cip`",
+                            p.object("stabilisation").type(), stabilisation_->highest_order(), order_));
+}
+
+std::vector<Unknown> Fluid::unknowns(int dimension) const {
+  return {{"velocity", dimension, order_, 1, "m/s"}, {"pressure", 1, order_, 0, "Pa"}};
+}
+
+void Fluid::build(FieldSetup& setup) const {
+  setup.publish("density", flow_.density);
+  setup.publish("viscosity", flow_.viscosity);
+  setup.publish("convection", flow_.convection ? 1 : 0);
+  add_volume_terms(setup);
+  add_ghost_penalty(setup);
+  for (const Parameters& condition : parameters_.list("boundary"))
+    for (const std::string& name : condition.names("on")) add_boundary(setup, condition, name);
+  fix_pressure_level(setup);
+  set_initial(setup);
+  add_outputs(setup);
+}
+
+void Fluid::add_volume_terms(FieldSetup& setup) const {
+  setup.add_cell_term(make_term(Stokes{flow_.viscosity}), both);
+  setup.add_cell_term(make_term(Inertia{flow_.density}), velocity_only);
+  if (flow_.convection) setup.add_cell_term(make_term(Convection{flow_.density}, order_ - 1), velocity_only);
+  std::vector<Expression> body_force;
+  if (parameters_.has("body_force")) {
+    body_force = parameters_.vector_expression("body_force");
+    setup.add_cell_term(make_term(Load{body_force, flow_.density}, 1), velocity_only);
+  }
+  stabilisation_->add(setup, flow_, body_force);
+}
+
+void Fluid::add_ghost_penalty(FieldSetup& setup) const {
+  const Parameters& p = parameters_.object("ghost_penalty");
+  const GhostPenalty penalty{flow_, stabilisation_->jumps(), p.number("viscous"), p.number("transient"),
+                             p.number("second_order")};
+  setup.add_ghost_face_term(p.text("faces") == "all" ? GhostFaces::all : GhostFaces::wet, make_term(penalty),
+                            both_sides);
+}
+
+void Fluid::add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
+  const std::string kind = kind_of(condition);
+  if (kind == "velocity") return add_velocity(setup, condition, boundary);
+  if (kind == "slip") return add_slip(setup, condition, boundary);
+  if (kind == "outflow") return add_outflow(setup, condition, boundary);
+  setup.add_boundary_term(boundary, make_term(Load{condition.vector_expression("traction"), 1.0}, 1),
+                          velocity_only);
+}
+
+void Fluid::add_velocity(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
+  const auto& velocity = condition.vector_expression("velocity");
+  for (int d = 0; d < setup.dimension(); ++d) {
+    const bool given = condition.component_given("velocity", d);
+    if (condition.boolean("weak") && !given)
+      throw Error(condition.where("velocity"),
+                  "a weakly imposed velocity needs all its components; see `slip_length` for free sliding");
+    if (given && !condition.boolean("weak"))
+      setup.prescribe(boundary, "velocity", d, velocity[d], condition.where("velocity"));
+  }
+  if (condition.boolean("weak"))
+    setup.add_boundary_term(boundary, make_term(weak_condition(condition, flow_, velocity), 1), both);
+}
+
+/// On a side that a coordinate is constant on, the normal component is prescribed; else it is imposed weakly.
+void Fluid::add_slip(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
+  const int axis = setup.boundary_axis(boundary);
+  if (axis >= 0)
+    setup.prescribe(boundary, "velocity", axis, Expression(0.0), condition.where("slip"));
+  else
+    setup.add_boundary_term(boundary, make_term(weak_slip(flow_, setup.dimension())), both);
+}
+
+void Fluid::add_outflow(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
+  if (condition.text("outflow") == "do_nothing")
+    setup.add_boundary_term(boundary, make_term(DoNothing{flow_.viscosity}), velocity_only);
+  const double backflow = condition.number("backflow");
+  if (backflow > 0)
+    setup.add_boundary_term(boundary, make_term(Backflow{flow_.density, backflow}, order_), velocity_only);
+}
+
+void Fluid::fix_pressure_level(FieldSetup& setup) const {
+  const std::string& choice = parameters_.text("fix_pressure");
+  if (choice == "never") return;
+  std::vector<std::string> open;
+  if (choice == "auto") {
+    open = setup.boundaries();
+    for (const Parameters& condition : parameters_.list("boundary"))
+      for (const std::string& name : condition.names("on"))
+        if (confines(setup, condition, name)) std::erase(open, name);
+  }
+  setup.fix_level("pressure", parameters_.number("pressure_level"), open);
+}
+
+void Fluid::set_initial(FieldSetup& setup) const {
+  if (!parameters_.has("initial")) return;
+  const Parameters& initial = parameters_.object("initial");
+  if (initial.has("velocity"))
+    for (int d = 0; d < setup.dimension(); ++d)
+      setup.set_initial("velocity", d, initial.vector_expression("velocity")[d]);
+  if (initial.has("pressure")) setup.set_initial("pressure", 0, initial.expression("pressure"));
+}
+
+void Fluid::add_outputs(FieldSetup& setup) const {
+  setup.add_output("stress", make_quantity(CauchyStress{flow_.viscosity}), both);
+  setup.add_output("velocity_gradient", make_quantity(VelocityGradient{}), velocity_only);
+  setup.add_output("vorticity", make_quantity(Vorticity{}), velocity_only);
+  setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{flow_.density}), velocity_only);
+  setup.add_integral("volume", make_quantity(Volume{}), velocity_only);
+  setup.add_integral("divergence", make_quantity(Divergence{}), velocity_only);
+}
+
+}  // namespace seam::fluid

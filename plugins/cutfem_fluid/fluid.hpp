@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "seam/physics/physics.hpp"
+#include "stabilisation.hpp"
+
+namespace seam::fluid {
+
+/// An incompressible Newtonian fluid on a fixed mesh from which bodies may be cut out,
+/// thesis 2.1.5, 2.2.4, 3.1.
+class Fluid final : public Physics {
+ public:
+  Fluid(const Parameters& parameters, const Registry& registry);
+  static Schema schema();
+
+  [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override;
+  void build(FieldSetup& setup) const override;
+
+ private:
+  void add_volume_terms(FieldSetup& setup) const;
+  void add_ghost_penalty(FieldSetup& setup) const;
+  void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
+  void add_velocity(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
+  void add_slip(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
+  void add_outflow(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
+  void fix_pressure_level(FieldSetup& setup) const;
+  void set_initial(FieldSetup& setup) const;
+  void add_outputs(FieldSetup& setup) const;
+
+  Parameters parameters_;
+  std::unique_ptr<Stabilisation> stabilisation_;
+  Flow flow_;
+  int order_;
+};
+
+}  // namespace seam::fluid

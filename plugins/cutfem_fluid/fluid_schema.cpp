@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "fluid.hpp"
+#include "weak_condition.hpp"
+
+namespace seam::fluid {
+namespace {
+
+Schema boundary_schema() {
+  Schema s("A condition on part of the boundary: one of velocity, slip, traction and outflow.");
+  s.names("on", "Boundaries of the mesh").naming("boundary");
+  s.vector_expression("velocity", "Given velocity; null leaves a component free").unit("m/s").optional();
+  s.boolean("weak", "Impose the velocity weakly, by Nitsche's method").otherwise("false");
+  declare_weak_condition(s);
+  s.boolean("slip", "No flow through the boundary, no tangential traction").otherwise("false");
+  s.vector_expression("traction", "Given force per area").unit("Pa").optional();
+  s.choice("outflow", "`do_nothing`: viscosity dv/dn - p n = 0; `symmetric`: no traction",
+           {"do_nothing", "symmetric"})
+      .optional();
+  s.number("backflow", "With an outflow: 0.5 and more keep what flows back from bringing in energy")
+      .otherwise("0")
+      .at_least(0);
+  return s;
+}
+
+Schema ghost_penalty_schema() {
+  Schema s(
+      "Penalty on jumps between cut cells and their neighbours, thesis (3.4)-(3.6), on top of the "
+      "stabilisation's.");
+  s.choice("faces", "`wet` leaves out faces that lie inside a body altogether", {"wet", "all"})
+      .otherwise("wet");
+  s.number("viscous", "gamma_nu").otherwise("0.1").at_least(0);
+  s.number("transient", "gamma_t").otherwise("0.001").at_least(0);
+  s.number("second_order", "Weight of second derivatives, times the cell size squared")
+      .otherwise("0.05")
+      .at_least(0);
+  return s;
+}
+
+}  // namespace
+
+Schema Fluid::schema() {
+  Schema s("Incompressible Newtonian fluid on a fixed mesh; bodies may be cut out of it.");
+  s.reference("mesh", "Where the fluid may be", "mesh");
+  s.number("density", "Mass per volume").unit("kg/m^3").above(0);
+  s.number("viscosity", "Dynamic viscosity").unit("Pa s").above(0);
+  s.boolean("convection", "false leaves out the convective acceleration: Stokes flow").otherwise("true");
+  s.integer("order", "Polynomial order of velocity and pressure").otherwise("1").at_least(1).at_most(2);
+  s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
+  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction",
+         boundary_schema())
+      .otherwise("[]");
+  Schema initial("State at the start");
+  initial.vector_expression("velocity", "Velocity").unit("m/s").optional();
+  initial.expression("pressure", "Pressure").unit("Pa").optional();
+  s.object("initial", "State at the start; default at rest", initial).optional();
+  s.typed("stabilisation", "Against oscillations of equal orders and of convection", "fluid_stabilisation")
+      .otherwise("cip");
+  s.object("ghost_penalty", "Penalty on jumps around cut cells", ghost_penalty_schema()).otherwise("{}");
+  s.choice("fix_pressure",
+           "`auto` fixes the level of the pressure at one node of each part of the fluid where the "
+           "conditions here leave it open; `never` "
+           "where what the fluid touches determines it, as a compressible body does",
+           {"auto", "always", "never"})
+      .otherwise("auto");
+  s.number("pressure_level", "Pressure at that node").unit("Pa").otherwise("0");
+  return s;
+}
+
+}  // namespace seam::fluid

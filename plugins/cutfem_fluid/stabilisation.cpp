@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stabilisation.hpp"
+
+#include "residual_stabilisation.hpp"
+
+namespace seam::fluid {
+namespace {
+
+void declare_jump_constants(Schema& s) {
+  s.number("pressure", "gamma_p: jumps of the pressure's derivatives, thesis (2.118)")
+      .otherwise("0.05")
+      .above(0);
+  s.number("convective", "gamma_u: jumps of the velocity's derivatives").otherwise("0.05").at_least(0);
+  s.number("divergence", "gamma_div: jumps of the divergence").otherwise("5e-5").at_least(0);
+}
+
+JumpConstants jump_constants(const Parameters& parameters) {
+  return {parameters.number("convective"), parameters.number("pressure"), parameters.number("divergence")};
+}
+
+/// Continuous interior penalty, thesis 2.2.4.1.
+class InteriorPenaltyStabilisation final : public Stabilisation {
+ public:
+  explicit InteriorPenaltyStabilisation(const Parameters& parameters)
+      : constants_(jump_constants(parameters)) {}
+  static Schema schema() {
+    Schema s("Continuous interior penalty: jumps of derivatives between all cells.");
+    declare_jump_constants(s);
+    return s;
+  }
+  [[nodiscard]] int highest_order() const override { return 2; }
+  [[nodiscard]] const JumpConstants& jumps() const override { return constants_; }
+  void add(FieldSetup& setup, const Flow& flow, const std::vector<Expression>&) const override {
+    setup.add_interior_face_term(make_term(InteriorPenalty{flow, constants_}), both_sides);
+  }
+
+ private:
+  JumpConstants constants_;
+};
+
+/// Residual-based in cells that no body cuts; cut cells get the interior penalty, on all of their faces.
+class ResidualBasedStabilisation final : public Stabilisation {
+ public:
+  explicit ResidualBasedStabilisation(const Parameters& parameters)
+      : momentum_(parameters.number("momentum")),
+        divergence_(parameters.number("volume")),
+        constants_(jump_constants(parameters)) {}
+  static Schema schema() {
+    Schema s("SUPG, PSPG and grad-div in uncut cells, interior penalty around cut ones; for order 1.");
+    s.number("momentum", "Factor of tau_M (SUPG, PSPG)").otherwise("1").above(0);
+    s.number("volume", "Factor of tau_C (grad-div)").otherwise("1").at_least(0);
+    declare_jump_constants(s);
+    return s;
+  }
+  [[nodiscard]] int highest_order() const override { return 1; }
+  [[nodiscard]] const JumpConstants& jumps() const override { return constants_; }
+  void add(FieldSetup& setup, const Flow& flow, const std::vector<Expression>& body_force) const override {
+    setup.add_uncut_cell_term(make_term(ResidualStabilisation{flow, body_force, momentum_, divergence_}, 1),
+                              {"velocity", "pressure"});
+    // All faces, also dry ones: cells that hang on to others by a dry face only would be left out otherwise.
+    setup.add_ghost_face_term(GhostFaces::all, make_term(InteriorPenalty{flow, constants_}), both_sides);
+  }
+
+ private:
+  double momentum_, divergence_;
+  JumpConstants constants_;
+};
+
+}  // namespace
+
+void declare_stabilisations(Registry& registry) {
+  registry.add<Stabilisation>(
+      "fluid_stabilisation", "cip", InteriorPenaltyStabilisation::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<InteriorPenaltyStabilisation>(p); });
+  registry.add<Stabilisation>(
+      "fluid_stabilisation", "residual", ResidualBasedStabilisation::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<ResidualBasedStabilisation>(p); });
+}
+
+}  // namespace seam::fluid

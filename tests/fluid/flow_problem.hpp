@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/linear/mumps_solver.hpp"
+#include "seam/mesh/input/grid.hpp"
+#include "seam/run/evaluate.hpp"
+#include "seam/solve/newton.hpp"
+
+/// Flows on the unit square or cube, set up as a scene does.
+namespace seam::test {
+
+/// A fluid as a scene describes it. @param yaml the keys of the field, `mesh` left out
+std::unique_ptr<Physics> make_fluid(int dimension, const std::string& yaml,
+                                    const std::map<std::string, double>& parameters = {});
+
+/// The unit square or cube.
+struct Box {
+  CellType cell = CellType::quadrilateral;
+  int cells = 4;          ///< per direction
+  bool distorted = true;  ///< lines that are not evenly spaced; quadrilaterals and hexahedra are sheared, too
+  [[nodiscard]] int dimension() const { return topology(cell).dimension; }
+};
+std::unique_ptr<Problem> make_flow(const Box& box, const std::string& yaml,
+                                   const std::map<std::string, double>& parameters = {});
+
+/// Marches to `end`, in one static step for steps = 0.
+void march(Problem& problem, double end, int steps, double theta = 1);
+
+/// A solution as text, from which the body force and the traction on x_max follow.
+struct ExactFlow {
+  std::vector<std::string> velocity, rate;  ///< [dimension], rate = "0" where it is steady
+  std::vector<std::string> gradient;        ///< [component][direction]
+  std::vector<std::string> laplacian;       ///< [dimension]
+  std::string pressure;
+  std::vector<std::string> pressure_gradient;
+  double density = 1.3, viscosity = 0.07;
+  bool convection = true;
+
+  [[nodiscard]] int dimension() const { return static_cast<int>(velocity.size()); }
+  [[nodiscard]] std::vector<std::string> body_force() const;
+  /// Keys of a field that has this solution: velocity given on all sides but x_max, where the traction is.
+  [[nodiscard]] std::string scene(const std::string& more) const;
+};
+
+struct FlowErrors {
+  double velocity, gradient, pressure;
+};
+FlowErrors errors(const Problem& problem, const ExactFlow& exact, double time);
+
+/// "[a, b]" with every entry quoted.
+std::string quoted(const std::vector<std::string>& entries);
+std::vector<Expression> expressions(const std::vector<std::string>& texts);
+
+}  // namespace seam::test
