@@ -67,6 +67,7 @@ void Assembler::number_unknowns() {
     for (std::size_t i = 0; i < equation.size(); ++i)
       if (b.node_index[i] >= 0) nodes[b.node_index[i]].equation = equation[i];
   }
+  name_unknowns();
   NodeGraph::Elements elements;
   collect_elements(elements);
   graph_.build(communicator_, std::move(nodes), owned_nodes, elements, matrix_);
@@ -244,6 +245,18 @@ int Assembler::row(const Field& field, int block, int node, int component) const
     if (b.block == &field.blocks()[block])
       return b.node_index[node] < 0 ? -1 : graph_.node(b.node_index[node]).first + component;
   return -1;
+}
+
+void Assembler::name_unknowns() {
+  matrix_.unknown.clear();
+  long long before = 0;  // all unknowns that the blocks in front could ever have
+  for (const NumberedBlock& b : blocks_) {
+    const Space& space = *b.block->space;
+    for (int node = 0; node < space.owned_nodes(); ++node)
+      for (int c = 0; c < b.block->size && b.node_index[node] >= 0; ++c)
+        matrix_.unknown.push_back(before + static_cast<long long>(space.global_node(node)) * b.block->size + c);
+    before += static_cast<long long>(space.global_bound()) * b.block->size;
+  }
 }
 
 std::vector<EquationBlock> Assembler::equation_blocks() const {

@@ -67,6 +67,7 @@ class Assembler {
   };
 
   void number_unknowns();
+  void name_unknowns();
   void find_pending();
   void collect_elements(NodeGraph::Elements& elements) const;
   void assemble_group(Group& group, const TimePoint& at, bool with_tangent);

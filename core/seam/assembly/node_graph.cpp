@@ -3,17 +3,23 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 namespace seam {
 
 void NodeGraph::build(const Communicator& communicator, std::vector<Node> nodes, int owned,
                       const Elements& elements, Matrix& matrix) {
   communicator_ = communicator;
-  nodes_ = std::move(nodes);
+  const std::vector<Node> old_nodes = std::exchange(nodes_, std::move(nodes));
+  const std::vector<std::size_t> old_start = std::exchange(start_, {});
+  const std::vector<int> old_column = std::exchange(column_, {});
   owned_ = owned;
   couple(elements);
   exchange_rows(communicator);
   allocate(matrix);
+  // A body that moves within its cells changes the elements, but rarely what they couple.
+  if (communicator.any(nodes_ != old_nodes || start_ != old_start || column_ != old_column))
+    ++matrix.pattern_version;
 }
 
 /// Fills start_ and column_ with what this rank's own elements couple.
@@ -165,7 +171,6 @@ void NodeGraph::allocate(Matrix& matrix) {
   matrix.column_global.clear();
   for (const Node& node : nodes_)
     for (int i = 0; i < node.size; ++i) matrix.column_global.push_back(node.equation + i);
-  ++matrix.pattern_version;
 }
 
 void NodeGraph::collect_matrix(Matrix& matrix) const {

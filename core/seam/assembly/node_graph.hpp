@@ -19,6 +19,7 @@ class NodeGraph {
     int owner = 0;
     int first = 0;           ///< local number of its first unknown
     long long equation = 0;  ///< global number of its first unknown
+    friend bool operator==(const Node&, const Node&) = default;
   };
   /// Nodes of every element, one after the other.
   struct Elements {

@@ -35,6 +35,8 @@ struct Matrix {
   Array<int> column;             ///< local column numbers: 0 .. rows-1 are this rank's own equations
   Array<double> value;           ///< of the rows; then those of rows that are assembled for other ranks
   std::vector<long long> column_global;  ///< equation number of every local column
+  /// [row]: what a row's unknown is called for as long as it lives, however often equations are renumbered.
+  std::vector<long long> unknown;
   /// Grows with every change of the pattern: solvers keep what depends on it alone.
   long long pattern_version = 0;
 

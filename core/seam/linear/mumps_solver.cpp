@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "seam/base/stopwatch.hpp"
 #include "seam/linear/gmres.hpp"
@@ -14,7 +15,10 @@ namespace {
 
 // MUMPS' job codes.
 /// Small enough for Newton's method to converge as with exact solutions.
-constexpr double kept_tolerance = 1e-10;
+constexpr double kept_tolerance = 1e-7;
+
+/// Below this part of unknowns that kept factors know they are not tried.
+constexpr double enough_known = 0.8;
 
 constexpr int job_begin = -1, job_end = -2, job_analyse = 1, job_factorise = 2, job_solve = 3;
 
@@ -26,6 +30,7 @@ struct MumpsSolver::Instance {
   long long pattern_version = -1;
   bool factorised = false;
   int last_iterations = 0;  ///< of the last system the factors preconditioned
+  std::unordered_map<long long, int> equation;  ///< number of each unknown when it was factorised
   bool begun = false;
 
   // MUMPS' manual counts its control arrays from 1.
@@ -38,8 +43,8 @@ struct MumpsSolver::Instance {
   }
   /// @return the whole solution, on every rank. Right-hand side and solution pass through rank 0: they are
   /// small beside the factors.
-  std::vector<double> solve(const Communicator& communicator, const std::vector<double>& b) {
-    std::vector<double> all = communicator.gather_all(b);
+  /// @param all the whole right-hand side
+  std::vector<double> solve(const Communicator& communicator, std::vector<double> all) {
     mumps.rhs = all.data();
     run(job_solve);
     if (info(1) < 0) throw Error(fmt::format("MUMPS could not solve: error {} ({})", info(1), info(2)));
@@ -53,25 +58,57 @@ struct MumpsSolver::Instance {
   }
 };
 
-/// The inverse of a matrix factorised earlier, as a preconditioner of a later one.
+/// The inverse of a matrix factorised earlier as a preconditioner of a later one. Unknowns that have come alive
+/// since are scaled by their diagonal; those that are gone have a right-hand side of zero.
 class MumpsSolver::KeptFactors final : public TpetraOperator {
  public:
-  KeptFactors(std::shared_ptr<Instance> instance, Teuchos::RCP<const TpetraMap> map, Communicator communicator)
-      : instance_(std::move(instance)), map_(std::move(map)), communicator_(communicator) {}
+  KeptFactors(std::shared_ptr<Instance> instance, const Matrix& a, Teuchos::RCP<const TpetraMap> map)
+      : instance_(std::move(instance)), map_(std::move(map)), communicator_(a.communicator) {
+    same_unknowns_ = instance_->pattern_version == a.pattern_version;
+    if (same_unknowns_) return;
+    place_.assign(a.rows, -1);
+    inverse_diagonal_.assign(a.rows, 0.0);
+    for (int r = 0; r < a.rows; ++r) {
+      const auto found = instance_->equation.find(a.unknown[r]);
+      if (found != instance_->equation.end()) place_[r] = found->second;
+      for (std::size_t k = a.row_start[r]; k < a.row_start[r + 1]; ++k)
+        if (a.column[k] == r && a.value[k] != 0) inverse_diagonal_[r] = 1 / a.value[k];
+    }
+  }
+  /// Part of the unknowns that the factors know. Collective.
+  [[nodiscard]] double known() const {
+    if (same_unknowns_) return 1;
+    const auto count = std::count_if(place_.begin(), place_.end(), [](int p) { return p >= 0; });
+    return static_cast<double>(communicator_.sum(static_cast<long long>(count))) /
+           static_cast<double>(communicator_.sum(static_cast<long long>(place_.size())));
+  }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override { return map_; }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return map_; }
   void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double, double) const override {
     std::vector<double> in;
     from_tpetra(x, in);
-    const std::vector<double> all = instance_->solve(communicator_, in);
     auto out = y.getDataNonConst(0);
-    std::copy_n(all.begin() + map_->getMinGlobalIndex(), in.size(), out.begin());
+    if (same_unknowns_) {
+      const std::vector<double> all = instance_->solve(communicator_, communicator_.gather_all(in));
+      std::copy_n(all.begin() + map_->getMinGlobalIndex(), in.size(), out.begin());
+      return;
+    }
+    std::vector<double> right(instance_->equation.size(), 0.0);
+    for (std::size_t r = 0; r < in.size(); ++r)
+      if (place_[r] >= 0) right[place_[r]] = in[r];
+    communicator_.sum(right);
+    const std::vector<double> all = instance_->solve(communicator_, std::move(right));
+    for (std::size_t r = 0; r < in.size(); ++r)
+      out[static_cast<int>(r)] = place_[r] >= 0 ? all[place_[r]] : inverse_diagonal_[r] * in[r];
   }
 
  private:
   std::shared_ptr<Instance> instance_;
   Teuchos::RCP<const TpetraMap> map_;
   Communicator communicator_;
+  bool same_unknowns_ = true;
+  std::vector<int> place_;  ///< [row]: equation of its unknown when the matrix was factorised, -1: none
+  std::vector<double> inverse_diagonal_;
 };
 
 MumpsSolver::MumpsSolver() : instance_(std::make_shared<Instance>()) {}
@@ -81,7 +118,7 @@ MumpsSolver::~MumpsSolver() = default;
 Schema MumpsSolver::schema() {
   Schema s("Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
   s.integer("keep",
-            "A factorisation is kept as preconditioner of later systems with the same pattern while they take "
+            "A factorisation is kept as preconditioner of later systems, also over moving cuts, while they take "
             "at most so many iterations; 0: each system is factorised")
       .otherwise("0")
       .at_least(0);
@@ -151,30 +188,37 @@ void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&,
                              std::vector<double>& x, SolveReport& report) {
   if (a.global_rows >= 2147483647LL)
     throw Error("the direct solver is limited to 2^31 unknowns: use `linear: krylov`");
-  if (worth_keeping(a) && solve_with_kept(a, b, x, report)) return;
+  if (worth_keeping() && solve_with_kept(a, b, x, report)) return;
   const Stopwatch watch;
   if (instance_->pattern_version != a.pattern_version) analyse(a);
   instance_->factorised = false;
   factorise(a);
   instance_->factorised = true;
+  if (keep_ > 0) remember_unknowns(a);
   instance_->last_iterations = 0;
   report.new_factorisation = true;
   report.setup_seconds = watch.seconds();
-  const std::vector<double> all = instance_->solve(a.communicator, b);
+  const std::vector<double> all = instance_->solve(a.communicator, a.communicator.gather_all(b));
   std::copy_n(all.begin() + a.first_row, a.rows, x.begin());
 }
 
-bool MumpsSolver::worth_keeping(const Matrix& a) const {
-  return instance_->factorised && instance_->pattern_version == a.pattern_version &&
-         instance_->last_iterations <= keep_ && keep_ > 0;
+void MumpsSolver::remember_unknowns(const Matrix& a) {
+  const std::vector<long long> all = a.communicator.gather_all(a.unknown);
+  instance_->equation.clear();
+  instance_->equation.reserve(all.size());
+  for (std::size_t e = 0; e < all.size(); ++e) instance_->equation.emplace(all[e], static_cast<int>(e));
+}
+
+bool MumpsSolver::worth_keeping() const {
+  return keep_ > 0 && instance_->factorised && instance_->last_iterations <= keep_;
 }
 
 /// @return false when it took too many iterations: then the factors are too old
 bool MumpsSolver::solve_with_kept(const Matrix& a, const std::vector<double>& b, std::vector<double>& x,
                                   SolveReport& report) {
   const auto matrix = tpetra_view(a);
-  const auto factors =
-      Teuchos::rcp(new KeptFactors(instance_, matrix->getDomainMap(), a.communicator));
+  const auto factors = Teuchos::rcp(new KeptFactors(instance_, a, matrix->getDomainMap()));
+  if (factors->known() < enough_known) return false;
   // Half as many again as are worth it: to finish is cheaper then than to begin anew.
   const GmresOptions options{kept_tolerance, 3 * keep_ / 2 + 1, 3 * keep_ / 2 + 1};
   report.iterations = gmres(matrix, factors, b, x, options);

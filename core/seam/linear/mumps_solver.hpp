@@ -28,7 +28,8 @@ class MumpsSolver final : public LinearSolver {
   class KeptFactors;
   void analyse(const Matrix& a);
   void factorise(const Matrix& a);
-  [[nodiscard]] bool worth_keeping(const Matrix& a) const;
+  void remember_unknowns(const Matrix& a);
+  [[nodiscard]] bool worth_keeping() const;
   bool solve_with_kept(const Matrix& a, const std::vector<double>& b, std::vector<double>& x,
                        SolveReport& report);
   std::shared_ptr<Instance> instance_;
