@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace seam {
@@ -33,6 +34,17 @@ struct Window {
     }
     return crossings > 1 ? (crossings - 1) / (last - first) : 0;
   }
+  /// Largest deviation of a value from the cubic through its four neighbours, over the largest magnitude. For
+  /// a smooth series at equal steps it falls with the fourth power of the step; jumps keep it up.
+  [[nodiscard]] double roughness() const {
+    double deviation = 0, largest = 0;
+    for (std::size_t k = 2; k + 2 < value.size(); ++k) {
+      const double cubic = (4 * (value[k - 1] + value[k + 1]) - value[k - 2] - value[k + 2]) / 6;
+      deviation = std::max(deviation, std::abs(value[k] - cubic));
+    }
+    for (const double v : value) largest = std::max(largest, std::abs(v));
+    return largest > 0 ? deviation / largest : 0;
+  }
 };
 
 double statistic(const Parameters& p, const Results& results) {
@@ -48,6 +60,7 @@ double statistic(const Parameters& p, const Results& results) {
   const std::string& what = p.text("what");
   if (what == "maximum") return *std::max_element(window.value.begin(), window.value.end());
   if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
+  if (what == "roughness") return window.roughness();
   return what == "mean" ? window.mean() : window.frequency();
 }
 

@@ -205,7 +205,8 @@ bool Simulation::try_step(double step) {
   const Problem::Snapshot before = problem_.snapshot();
   const double until =
       std::abs(state_.time + step - time_.end) < 1e-10 * step ? time_.end : state_.time + step;
-  const TimePoint at = time_point(until, time_.is_static ? 0 : step, time_.theta);
+  const double theta = state_.step_number == 0 && problem_.constrains_rates() ? 1 : time_.theta;
+  const TimePoint at = time_point(until, time_.is_static ? 0 : step, theta);
   problem_.begin_step(at);
   try {
     reports_.push_back(newton_->solve(at));

@@ -96,8 +96,10 @@ Schema formula_schema() {
 Schema statistic_schema() {
   Schema schema("What a series does over time, known at the end.");
   schema.text("of", "a probe or a formula");
-  schema.choice("what", "frequency: of the upward crossings of the mean",
-                {"maximum", "minimum", "mean", "frequency"});
+  schema.choice("what",
+                "frequency: of the upward crossings of the mean; roughness: largest deviation of a value from "
+                "the cubic through its four neighbours, over the largest magnitude",
+                {"maximum", "minimum", "mean", "frequency", "roughness"});
   schema.number("from", "time from which on it counts; default the start").unit("s").optional();
   return schema;
 }

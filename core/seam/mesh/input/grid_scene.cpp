@@ -72,33 +72,50 @@ std::vector<double> explicit_lines(const Parameters& p, int i) {
   return lines;
 }
 
+/// Lines of one stretch. @param keys holds the keys `to`, `grading` and `cells` for messages
+std::vector<double> stretch_lines(const Parameters& keys, int i, double from, double to, int n, double ratio) {
+  if (!(to > from) || !std::isfinite(to - from))
+    throw Error(keys.where("to"),
+                fmt::format("the grid ends at {} = {}, not beyond its start at {}; exchange 'from' "
+                            "and 'to'",
+                            axis_names[i], to, from));
+  if (!(ratio >= 1e-6 && ratio <= 1e6))
+    throw Error(keys.where("grading"),
+                fmt::format("grading {} along {}; expected the width of the last cell over that "
+                            "of the first, between 1e-6 and 1e6",
+                            ratio, axis_names[i]));
+  std::vector<double> lines = graded_lines(from, to, n, ratio);
+  if (!std::is_sorted(lines.begin(), lines.end(), std::less_equal<>()))
+    throw Error(keys.where("cells"),
+                fmt::format("{} cells between {} and {} along {} are too thin for floating-point "
+                            "numbers to tell them apart; use fewer",
+                            n, from, to, axis_names[i]));
+  return lines;
+}
+
+/// One stretch of cells after the other.
+std::vector<double> segment_lines(const Parameters& p, int i) {
+  const Parameters& segments = p.object("segments");
+  std::vector<double> lines{segments.vector("from")[i]};
+  for (const Parameters& segment : segments.list(axis_names[i])) {
+    const std::vector<double> next = stretch_lines(segment, i, lines.back(), segment.number("to"),
+                                                   static_cast<int>(segment.integer("cells")),
+                                                   segment.number("grading"));
+    lines.insert(lines.end(), next.begin() + 1, next.end());
+  }
+  return lines;
+}
+
 std::vector<double> lines_along(const Parameters& p, int i) {
   if (p.has("lines") && p.object("lines").has(axis_names[i])) return explicit_lines(p, i);
+  if (p.has("segments") && p.object("segments").has(axis_names[i])) return segment_lines(p, i);
   for (const char* key : {"from", "to", "cells"})
     if (!p.has(key))
       throw Error(p.where(), fmt::format("the grid needs '{}' (or 'lines' for every direction, and there are "
                                          "none along {})",
                                          key, axis_names[i]));
-  const double from = entry(p, "from", i), to = entry(p, "to", i);
-  if (!(to > from) || !std::isfinite(to - from))
-    throw Error(p.where("to"),
-                fmt::format("the grid ends at {} = {}, not beyond its start at {}; exchange 'from' "
-                            "and 'to'",
-                            axis_names[i], to, from));
   const double ratio = p.has("grading") ? entry(p, "grading", i) : 1.0;
-  if (!(ratio >= 1e-6 && ratio <= 1e6))
-    throw Error(p.where("grading"),
-                fmt::format("grading {} along {}; expected the width of the last cell over that "
-                            "of the first, between 1e-6 and 1e6",
-                            ratio, axis_names[i]));
-  const int n = cells_along(p, i);
-  std::vector<double> lines = graded_lines(from, to, n, ratio);
-  if (!std::is_sorted(lines.begin(), lines.end(), std::less_equal<>()))
-    throw Error(p.where("cells"),
-                fmt::format("{} cells between {} and {} along {} are too thin for floating-point "
-                            "numbers to tell them apart; use fewer",
-                            n, from, to, axis_names[i]));
-  return lines;
+  return stretch_lines(p, i, entry(p, "from", i), entry(p, "to", i), cells_along(p, i), ratio);
 }
 
 void apply_map(MeshData& mesh, const Parameters& p) {
@@ -168,6 +185,14 @@ void rename_sides(MeshData& mesh, const Parameters& sides) {
 
 Schema grid_schema() {
   Schema lines("Coordinates of the lines between the cells, per direction.");
+  Schema segment("A stretch of cells, up to a coordinate.");
+  segment.number("to", "where it ends").unit("m");
+  segment.integer("cells", "number of cells").at_least(1);
+  segment.number("grading", "width of its last cell over that of its first").above(0).otherwise("1");
+  Schema segments("Stretches of cells, one after the other, per direction.");
+  segments.vector("from", "corner with the lowest coordinates").unit("m");
+  for (const char* axis : axis_names)
+    segments.list(axis, fmt::format("stretches along {}", axis), segment).optional();
   Schema sides("New names of the sides.");
   for (const char* axis : axis_names)
     lines.vector(axis, fmt::format("increasing {} coordinates", axis)).unit("m").entries(-1).optional();
@@ -189,6 +214,8 @@ Schema grid_schema() {
   schema
       .object("lines", "explicit coordinates of the lines between cells, instead of the keys above",
               std::move(lines))
+      .optional();
+  schema.object("segments", "stretches of cells of different width, instead of the keys above", segments)
       .optional();
   schema.integer("order", "polynomial order of the geometry").at_least(1).at_most(2).otherwise("1");
   schema.choice("diagonals", "how rectangles are cut into triangles", {"alternating", "rising", "falling"})
