@@ -2,7 +2,6 @@
 // Manufactured flows on fitted meshes: orders in space for every cell type and stabilisation, orders in time.
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <regex>
 
 #include "flow_problem.hpp"
 
@@ -10,42 +9,6 @@ using namespace seam;
 using namespace seam::test;
 
 namespace {
-
-/// Vortices in the plane. @param g factor of time, @param dg its rate
-ExactFlow vortices(const std::string& g, const std::string& dg) {
-  const std::string sa = "sin(pi*x + 0.3)", ca = "cos(pi*x + 0.3)", sb = "sin(pi*y + 0.2)",
-                    cb = "cos(pi*y + 0.2)";
-  ExactFlow e;
-  const std::string u = sa + "*" + cb, w = "-" + ca + "*" + sb;
-  e.velocity = {g + "*" + u, g + "*(" + w + ")"};
-  e.rate = {dg + "*" + u, dg + "*(" + w + ")"};
-  e.gradient = {g + "*pi*" + ca + "*" + cb, "-" + g + "*pi*" + sa + "*" + sb, g + "*pi*" + sa + "*" + sb,
-                "-" + g + "*pi*" + ca + "*" + cb};
-  e.laplacian = {"-2*pi^2*" + e.velocity[0], "-2*pi^2*" + e.velocity[1]};
-  e.pressure = g + "*sin(2*pi*x)*cos(pi*y + 0.5)";
-  e.pressure_gradient = {g + "*2*pi*cos(2*pi*x)*cos(pi*y + 0.5)",
-                         "-" + g + "*pi*sin(2*pi*x)*sin(pi*y + 0.5)"};
-  return e;
-}
-
-/// A flow in space whose curl is parallel to it (Beltrami).
-ExactFlow spirals() {
-  ExactFlow e;
-  e.velocity = {"sin(k*z) + cos(k*y)", "sin(k*x) + cos(k*z)", "sin(k*y) + cos(k*x)"};
-  e.rate = {"0", "0", "0"};
-  e.gradient = {"0",           "-k*sin(k*y)", "k*cos(k*z)", "k*cos(k*x)", "0",
-                "-k*sin(k*z)", "-k*sin(k*x)", "k*cos(k*y)", "0"};
-  for (const std::string& v : e.velocity) e.laplacian.push_back("-k^2*(" + v + ")");
-  e.pressure = "sin(k*x)*cos(k*y + 0.5)*cos(k*z)";
-  e.pressure_gradient = {"k*cos(k*x)*cos(k*y + 0.5)*cos(k*z)", "-k*sin(k*x)*sin(k*y + 0.5)*cos(k*z)",
-                         "-k*sin(k*x)*cos(k*y + 0.5)*sin(k*z)"};
-  // So wide that four cells per direction resolve it.
-  for (auto* list : {&e.velocity, &e.gradient, &e.laplacian, &e.pressure_gradient})
-    for (std::string& text : *list) text = std::regex_replace(text, std::regex("\\bk\\b"), "1.5");
-  e.pressure = std::regex_replace(e.pressure, std::regex("\\bk\\b"), "1.5");
-  e.viscosity = 0.3;
-  return e;
-}
 
 std::string keys(int order, const std::string& stabilisation) {
   return "order: " + std::to_string(order) + "\nstabilisation: " + stabilisation;
@@ -63,9 +26,6 @@ FlowErrors observed(const ExactFlow& exact, Box box, const std::string& more, do
   const FlowErrors coarse = solve(exact, box, more, end, steps);
   box.cells *= 2;
   const FlowErrors fine = solve(exact, box, more, end, steps);
-  WARN(name(box.cell) << " " << more << ": v " << coarse.velocity << " -> " << fine.velocity << ", grad v "
-                      << coarse.gradient << " -> " << fine.gradient << ", p " << coarse.pressure << " -> "
-                      << fine.pressure);
   return {std::log2(coarse.velocity / fine.velocity), std::log2(coarse.gradient / fine.gradient),
           std::log2(coarse.pressure / fine.pressure)};
 }
@@ -122,11 +82,13 @@ TEST_CASE("the velocity has order 1 in time for theta = 1 and order 2 for theta 
   e.laplacian = {"0", "0"};
   e.pressure = "cos(3*t)*(x + 2*y)";
   e.pressure_gradient = {"cos(3*t)", "2*cos(3*t)"};
+  // So viscous that the stabilisation hardly depends on the step.
+  e.viscosity = 20;
   const std::string stabilisation = GENERATE("cip", "residual");
   for (const double theta : {1.0, 0.5}) {
     const Box box{CellType::quadrilateral, 3, true};
-    const FlowErrors coarse = solve(e, box, keys(1, stabilisation), 1, 160, theta);
-    const FlowErrors fine = solve(e, box, keys(1, stabilisation), 1, 320, theta);
+    const FlowErrors coarse = solve(e, box, keys(1, stabilisation), 1, 40, theta);
+    const FlowErrors fine = solve(e, box, keys(1, stabilisation), 1, 80, theta);
     INFO(stabilisation << ", theta " << theta << ": v " << coarse.velocity << " -> " << fine.velocity
                        << ", p " << coarse.pressure << " -> " << fine.pressure);
     CHECK(std::log2(coarse.velocity / fine.velocity) == Approx(theta == 1.0 ? 1 : 2).margin(0.1));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "flow_problem.hpp"
 
-#include <fmt/format.h>
-
 #include <catch2/catch.hpp>
 
 #include "fluid.hpp"
@@ -69,45 +67,6 @@ void march(Problem& problem, double end, int steps, double theta) {
     INFO(report.reason);
     REQUIRE(report.converged);
   }
-}
-
-std::string quoted(const std::vector<std::string>& entries) {
-  std::string list;
-  for (const std::string& entry : entries) list += (list.empty() ? "[\"" : ", \"") + entry + "\"";
-  return list + "]";
-}
-
-std::vector<Expression> expressions(const std::vector<std::string>& texts) {
-  std::vector<Expression> result;
-  for (const std::string& text : texts) result.emplace_back(text, std::map<std::string, double>{});
-  return result;
-}
-
-std::vector<std::string> ExactFlow::body_force() const {
-  const int dim = dimension();
-  std::vector<std::string> force;
-  for (int i = 0; i < dim; ++i) {
-    std::string acceleration = "(" + rate[i] + ")";
-    for (int j = 0; j < dim && convection; ++j)
-      acceleration += fmt::format(" + ({})*({})", velocity[j], gradient[i * dim + j]);
-    force.push_back(fmt::format("{} + ({} - ({})*({}))/{}", acceleration, pressure_gradient[i], viscosity,
-                                laplacian[i], density));
-  }
-  return force;
-}
-
-std::string ExactFlow::scene(const std::string& more) const {
-  const int dim = dimension();
-  std::vector<std::string> traction;
-  for (int i = 0; i < dim; ++i)
-    traction.push_back(fmt::format("{}*(({}) + ({})){}", viscosity, gradient[i * dim], gradient[i],
-                                   i == 0 ? " - (" + pressure + ")" : ""));
-  return fmt::format(
-      "density: {}\nviscosity: {}\nconvection: {}\nbody_force: {}\n"
-      "boundary:\n  - {{on: [x_min, y_min, y_max{}], velocity: {}}}\n  - {{on: x_max, traction: {}}}\n"
-      "initial: {{velocity: {}, pressure: \"{}\"}}\n{}\n",
-      density, viscosity, convection, quoted(body_force()), dim == 3 ? ", z_min, z_max" : "",
-      quoted(velocity), quoted(traction), quoted(velocity), pressure, more);
 }
 
 FlowErrors errors(const Problem& problem, const ExactFlow& exact, double time) {

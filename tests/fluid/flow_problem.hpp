@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "exact_flow.hpp"
 #include "seam/linear/mumps_solver.hpp"
 #include "seam/mesh/input/grid.hpp"
 #include "seam/run/evaluate.hpp"
@@ -31,29 +32,9 @@ std::unique_ptr<Problem> make_flow(const Box& box, const std::string& yaml,
 /// Marches to `end`, in one static step for steps = 0.
 void march(Problem& problem, double end, int steps, double theta = 1);
 
-/// A solution as text, from which the body force and the traction on x_max follow.
-struct ExactFlow {
-  std::vector<std::string> velocity, rate;  ///< [dimension], rate = "0" where it is steady
-  std::vector<std::string> gradient;        ///< [component][direction]
-  std::vector<std::string> laplacian;       ///< [dimension]
-  std::string pressure;
-  std::vector<std::string> pressure_gradient;
-  double density = 1.3, viscosity = 0.07;
-  bool convection = true;
-
-  [[nodiscard]] int dimension() const { return static_cast<int>(velocity.size()); }
-  [[nodiscard]] std::vector<std::string> body_force() const;
-  /// Keys of a field that has this solution: velocity given on all sides but x_max, where the traction is.
-  [[nodiscard]] std::string scene(const std::string& more) const;
-};
-
 struct FlowErrors {
   double velocity, gradient, pressure;
 };
 FlowErrors errors(const Problem& problem, const ExactFlow& exact, double time);
-
-/// "[a, b]" with every entry quoted.
-std::string quoted(const std::vector<std::string>& entries);
-std::vector<Expression> expressions(const std::vector<std::string>& texts);
 
 }  // namespace seam::test

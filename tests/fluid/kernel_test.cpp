@@ -66,7 +66,8 @@ double tangent_error(const Term& term, const OnePoint& at, const std::vector<dou
   const int out = s.output_size(at.dim), columns = s.column_size(at.dim);
   std::vector<double> r(out), tangent(static_cast<std::size_t>(out) * columns);
   term.evaluate(at.batch(inputs), r.data(), tangent.data());
-  CHECK(r == residual(term, at, inputs));
+  const std::vector<double> plain_residual = residual(term, at, inputs);
+  for (int i = 0; i < out; ++i) CHECK(r[i] == Approx(plain_residual[i]).epsilon(1e-12).margin(1e-13));
   double error = 0, largest = 0;
   int column = 0;
   for (const Slot& wanted : s.columns)
@@ -98,7 +99,7 @@ double tangent_error(const Term& term, const OnePoint& at, const std::vector<dou
 const Flow flow{1.7, 0.23, true}, creeping{1.7, 0.23, false};
 const JumpConstants constants{0.05, 0.06, 0.002};
 
-std::vector<Expression> functions(std::vector<std::string> texts) {
+std::vector<Expression> functions(const std::vector<std::string>& texts) {
   std::vector<Expression> result;
   for (const std::string& text : texts) result.emplace_back(text, std::map<std::string, double>{});
   return result;
@@ -140,9 +141,9 @@ TEST_CASE("tangents of all integrands match finite differences") {
     for (const double size : {1.0, 1e-2, 1e-9}) {
       INFO(what << " in " << dim << " dimensions, inputs of size " << size);
       std::vector<double> inputs = random_inputs(*term, dim, size);
-      // Backflow has a kink where the flow turns; here it flows in.
+      // Backflow has a kink where the flow turns; here it flows in, faster than the difference's step.
       if (what == "backflow")
-        for (int d = 0; d < dim; ++d) inputs[d] = -size * at.normal[d];
+        for (int d = 0; d < dim; ++d) inputs[d] = -(size + 1e-3) * at.normal[d];
       CHECK(tangent_error(*term, at, inputs) < (size < 1e-3 ? 1e-5 : 1e-8));
     }
 }

@@ -49,7 +49,8 @@ LatticePoint meeting(const Segment& s, const Segment& t) {
 }
 
 /// Notes where two segments must be split.
-void meet(const Segment& s, const Segment& t, std::vector<LatticePoint>& on_s, std::vector<LatticePoint>& on_t) {
+void meet(const Segment& s, const Segment& t, std::vector<LatticePoint>& on_s,
+          std::vector<LatticePoint>& on_t) {
   const int sa = orientation(t.a, t.b, s.a), sb = orientation(t.a, t.b, s.b);
   const int ta = orientation(s.a, s.b, t.a), tb = orientation(s.a, s.b, t.b);
   if (sa * sb > 0 || ta * tb > 0) return;
@@ -116,7 +117,8 @@ bool split_at_meetings(std::vector<Segment>& segments) {
   // than a few in a row.
   for (int round = 0; round < 100; ++round) {
     std::vector<std::vector<LatticePoint>> points(segments.size());
-    visit_pairs(segments, is_new, [&](int i, int j) { meet(segments[i], segments[j], points[i], points[j]); });
+    visit_pairs(segments, is_new,
+                [&](int i, int j) { meet(segments[i], segments[j], points[i], points[j]); });
     std::vector<Segment> next;
     std::vector<char> next_is_new;
     bool split = false;

@@ -20,7 +20,7 @@ void require_dimension(const Parameters& p, int dimension, int wanted) {
 }
 
 /// A regular polygon with the area of the circle: the radius of its corners is a little larger.
-class Circle final : public Body {
+class Circle final : public BodyShape {
  public:
   explicit Circle(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -49,7 +49,7 @@ class Circle final : public Body {
 };
 
 /// An icosahedron, its triangles split in four again and again, on the sphere of the same volume.
-class Sphere final : public Body {
+class Sphere final : public BodyShape {
  public:
   explicit Sphere(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -138,7 +138,7 @@ class Sphere final : public Body {
   Parameters p_;
 };
 
-class Box final : public Body {
+class Box final : public BodyShape {
  public:
   explicit Box(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -173,7 +173,7 @@ class Box final : public Body {
   Parameters p_;
 };
 
-class Outline final : public Body {
+class Outline final : public BodyShape {
  public:
   explicit Outline(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -207,7 +207,7 @@ class Outline final : public Body {
   Parameters p_;
 };
 
-class MeshBody final : public Body {
+class MeshBody final : public BodyShape {
  public:
   explicit MeshBody(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -226,7 +226,7 @@ class MeshBody final : public Body {
 
 template <class Type>
 void add(Registry& registry, const std::string& name) {
-  registry.add<Body>("body", name, Type::schema(),
+  registry.add<BodyShape>("body", name, Type::schema(),
                      [](const Parameters& p, const Registry&) { return std::make_unique<Type>(p); });
 }
 

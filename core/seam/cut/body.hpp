@@ -15,9 +15,9 @@ namespace seam {
 using MeshFinder = std::function<std::shared_ptr<const MeshData>(const std::string& name)>;
 
 /// The shape of a body of given geometry. A type of kind "body".
-class Body {
+class BodyShape {
  public:
-  virtual ~Body() = default;
+  virtual ~BodyShape() = default;
   /// Its boundary, before any motion. @param dimension of the scene
   [[nodiscard]] virtual Surface surface(int dimension, const MeshFinder& meshes) const = 0;
 };

@@ -22,4 +22,8 @@ void clip_segments(const ClipInput& input, std::span<const int> facets, CutCell&
 /// The fluid parts of a plane cell's sides, given how often its vertices are covered by bodies.
 void find_wet_sides(const ClipInput& input, const std::vector<int>& coverage, CutCell& cell);
 
+/// The same in space, with a cell's edges and triangles in place of its sides.
+void clip_triangles(const ClipInput& input, std::span<const int> facets, CutCell& cell);
+void find_wet_faces(const ClipInput& input, const std::vector<int>& coverage, CutCell& cell);
+
 }  // namespace seam::cutting

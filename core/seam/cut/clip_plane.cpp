@@ -53,7 +53,7 @@ void find_events(const ClipInput& input, const Facet& facet, CutCell& cell, std:
     const double on_facet = ratio(area(xa, xb, xp, side_p), area(xa, xb, xq, side_q));
     const Vector position = xa + on_edge * (xb - xa);
     const int along = side.forward[0];
-    cell.crossings.push_back({s, along * side_b, along > 0 ? on_edge : 1 - on_edge, position});
+    cell.crossings.push_back({facet.body, s, along * side_b, along > 0 ? on_edge : 1 - on_edge, position});
     events.push_back({on_facet, along * side_q, position});
   }
   std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.share < b.share; });
@@ -99,8 +99,11 @@ void find_wet_sides(const ClipInput& input, const std::vector<int>& coverage, Cu
     const Side& side = input.outline.sides[s];
     int covered = coverage[side.vertex[0]];
     Vector from = input.outline.position[side.vertex[0]];
+    const Vector normal = side_normal(input.outline, side);
     const auto add = [&](const Vector& to) {
-      if (covered == 0) cell.wet.push_back({side.face, {from, to, to}});
+      if (covered != 0) return;
+      cell.wet.push_back(
+          {side.face, normal, {from, to, to}, 1.0, std::hypot(to[0] - from[0], to[1] - from[1])});
     };
     for (; crossing != cell.crossings.end() && crossing->place == s; ++crossing) {
       add(crossing->position);

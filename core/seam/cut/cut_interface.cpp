@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "seam/assembly/domains.hpp"
-#include "seam/cut/field_cut.hpp"
 
 namespace seam {
 namespace {
@@ -133,7 +132,7 @@ class Motion {
 }  // namespace
 
 CutInterface::CutInterface(const Parameters& parameters, const Registry& types)
-    : parameters_(parameters), body_(types.create<Body>("body", parameters.object("body"))) {}
+    : parameters_(parameters), body_(types.create<BodyShape>("body", parameters.object("body"))) {}
 
 Schema CutInterface::schema() {
   Schema s("The boundary of a body of given shape and motion, cut out of a field's mesh.");
@@ -143,17 +142,24 @@ Schema CutInterface::schema() {
   return s;
 }
 
+FieldCut::Body CutInterface::moving_body(const MeshFinder& meshes, int dimension) const {
+  const Surface shape = body_->surface(dimension, meshes);
+  if (!parameters_.has("motion")) return [shape](double) { return shape; };
+  return [shape, motion = Motion(parameters_.object("motion"))](double time) {
+    Surface moved = shape;
+    motion.apply(moved, time);
+    return moved;
+  };
+}
+
+std::optional<Surface> CutInterface::body(const MeshFinder& meshes, int dimension, double time) const {
+  return moving_body(meshes, dimension)(time);
+}
+
 std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) const {
   Field& field = *setup.sides[0];
-  const Surface shape =
-      body_->surface(field.mesh().dimension(), [&](const std::string& name) { return setup.mesh(name); });
-  FieldCut::Body moving = [shape](double) { return shape; };
-  if (parameters_.has("motion"))
-    moving = [shape, motion = Motion(parameters_.object("motion"))](double time) {
-      Surface moved = shape;
-      motion.apply(moved, time);
-      return moved;
-    };
+  FieldCut::Body moving = moving_body([&](const std::string& name) { return setup.mesh(name); },
+                                      field.mesh().dimension());
   return std::make_shared<CutBoundary>(field, setup.cut(0).add_body(std::move(moving)), setup.degree);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seam/cut/body.hpp"
+#include "seam/cut/field_cut.hpp"
 #include "seam/interface/interface.hpp"
 
 namespace seam {
@@ -16,11 +17,14 @@ class CutInterface final : public Interface {
   CutInterface(const Parameters& parameters, const Registry& types);
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("field")}; }
+  [[nodiscard]] std::optional<Surface> body(const MeshFinder& meshes, int dimension,
+                                            double time) const override;
   [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
 
  private:
+  [[nodiscard]] FieldCut::Body moving_body(const MeshFinder& meshes, int dimension) const;
   Parameters parameters_;
-  std::unique_ptr<Body> body_;
+  std::unique_ptr<BodyShape> body_;
 };
 
 }  // namespace seam

@@ -2,12 +2,16 @@
 #include "seam/cut/cut_mesh.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
+#include "seam/cut/cell_map.hpp"
 #include "seam/cut/clip.hpp"
 #include "seam/cut/coverage.hpp"
 #include "seam/cut/geometry.hpp"
 #include "seam/cut/slivers.hpp"
+#include "seam/cut/unite.hpp"
+#include "seam/cut/unite_in_cell.hpp"
 
 namespace seam {
 namespace {
@@ -38,16 +42,44 @@ std::vector<std::pair<int, int>> candidates(const CellSearch& search, const Face
 
 std::vector<CutCell> clip(const ClipInput& input, const std::vector<std::pair<int, int>>& pairs) {
   std::vector<CutCell> cells;
-  std::vector<int> facets;
   for (std::size_t k = 0; k < pairs.size();) {
     CutCell cell;
     cell.cell = pairs[k].first;
-    facets.clear();
-    for (; k < pairs.size() && pairs[k].first == cell.cell; ++k) facets.push_back(pairs[k].second);
-    clip_segments(input, facets, cell);
+    for (; k < pairs.size() && pairs[k].first == cell.cell; ++k) cell.facets.push_back(pairs[k].second);
+    if (input.outline.dimension == 2)
+      clip_segments(input, cell.facets, cell);
+    else
+      clip_triangles(input, cell.facets, cell);
     if (!cell.pieces.empty()) cells.push_back(std::move(cell));
   }
   return cells;
+}
+
+/// Whether no two bodies meet because their boxes do not, and each lies in its box.
+bool are_apart(const Facets& facets, std::span<const Surface> bodies) {
+  if (bodies.size() < 2) return false;  // a single one may overlap itself, and costs the same
+  for (std::size_t b = 0; b < bodies.size(); ++b)
+    if (!facets.closed[b] || facets.far[b] != 0) return false;
+  std::vector<std::pair<Vector, Vector>> boxes;
+  for (const Surface& body : bodies) {
+    auto& [low, high] = boxes.emplace_back();
+    low.fill(std::numeric_limits<double>::max());
+    high.fill(std::numeric_limits<double>::lowest());
+    for (const int v : body.facets)
+      for (int i = 0; i < body.dimension; ++i) {
+        const double x = body.points[v * body.dimension + i];
+        low[i] = std::min(low[i], x);
+        high[i] = std::max(high[i], x);
+      }
+  }
+  for (std::size_t a = 0; a < boxes.size(); ++a)
+    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+      bool apart = false;
+      for (int i = 0; i < bodies[a].dimension; ++i)
+        apart = apart || boxes[a].second[i] < boxes[b].first[i] || boxes[b].second[i] < boxes[a].first[i];
+      if (!apart) return false;
+    }
+  return true;
 }
 
 }  // namespace
@@ -61,25 +93,56 @@ CutMesh::~CutMesh() = default;
 
 void CutMesh::cut(std::span<const Surface> bodies) {
   Geometry& g = *geometry_;
+  const int dim = g.outline.dimension;
   g.bodies.assign(bodies.begin(), bodies.end());
   const Lattice before = g.facets.lattice;
   g.facets = collect_facets(g.outline, bodies);
+  if (dim == 2) g.facets = unite_in_plane(std::move(g.facets));
   if (g.vertex.empty() || !(g.facets.lattice == before)) {
     g.vertex.clear();
     for (const Vector& x : g.outline.position) g.vertex.push_back(g.facets.lattice.round(x));
   }
   const ClipInput input{g.outline, g.vertex, g.facets};
   g.cells = clip(input, candidates(g.search, g.facets));
-  g.coverage = spread_coverage(*mesh_, g.outline, g.vertex, g.facets, g.cells);
+  const Coverage coverage(*mesh_, g.outline, g.vertex, g.facets, g.cells,
+                          dim == 2 || are_apart(g.facets, bodies));
   for (int c = 0; c < mesh_->cells(); ++c) {
     const int vertex = g.outline.sides[g.outline.first_side[c]].vertex[0];
-    state_[c] = g.coverage[vertex] > 0 ? CellState::body : CellState::fluid;
+    state_[c] = coverage.count()[vertex] > 0 ? CellState::body : CellState::fluid;
   }
   for (CutCell& c : g.cells) {
-    find_wet_sides(input, g.coverage, c);
+    if (dim == 2)
+      find_wet_sides(input, coverage.count(), c);
+    else if (coverage.overlap_in(g.outline, c))
+      unite_in_cell(input, coverage.windings(), CellMap(*mesh_, c.cell).affine(), c);
+    else
+      find_wet_faces(input, coverage.count(), c);
     measure(g.outline, c);
   }
   settle_slivers(g.outline, g.cells, state_);
+  adopt_ghost_states();
+  number_cut_cells();
+}
+
+/// A ghost cell may have become cut by what a sliver handed over that only its owner sees.
+void CutMesh::adopt_ghost_states() {
+  Geometry& g = *geometry_;
+  std::vector<int> missed;
+  g.ghosts.update([&](int c) { return static_cast<int>(state_[c]); },
+                  [&](int c, int value) {
+                    if (static_cast<CellState>(value) == CellState::cut && state_[c] == CellState::fluid)
+                      missed.push_back(c);
+                  });
+  for (const int c : missed) {
+    state_[c] = CellState::cut;
+    g.cells.push_back(whole_cell(g.outline, c));
+  }
+  std::sort(g.cells.begin(), g.cells.end(),
+            [](const CutCell& a, const CutCell& b) { return a.cell < b.cell; });
+}
+
+void CutMesh::number_cut_cells() {
+  Geometry& g = *geometry_;
   g.index.assign(mesh_->cells(), -1);
   cut_cells_.clear();
   for (std::size_t k = 0; k < g.cells.size(); ++k) {

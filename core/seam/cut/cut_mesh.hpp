@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "seam/cut/fluid_parts.hpp"
 #include "seam/cut/surface.hpp"
 #include "seam/mesh/mesh.hpp"
 
@@ -63,7 +64,19 @@ class CutMesh {
   /// Rule for the fluid part of one face of a cut cell; empty where the face is dry.
   void face_rule(int cell, int face, int degree, CutRule& rule) const;
 
+  /// Collective.
+  [[nodiscard]] FluidParts find_parts() const;
+  /// Turns local cells into body, as those of parts that are too small. Collective; ghosts must be listed on
+  /// every rank, and the cells should make up whole parts: then no interface is left over. Holds until the
+  /// next cut().
+  /// @return the fluid's volume dropped on all ranks, m^d
+  double drop(const std::vector<int>& cells);
+
  private:
+  [[nodiscard]] bool is_wet(int cell, int face) const;
+  void number_cut_cells();
+  void adopt_ghost_states();
+
   struct Geometry;
   const Mesh* mesh_;
   std::vector<CellState> state_;

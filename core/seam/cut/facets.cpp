@@ -271,6 +271,7 @@ int winding(const Facets& facets, int body, const LatticePoint& vertex) {
 }
 
 int coverage_at(const Facets& facets, const LatticePoint& vertex) {
+  if (facets.list.empty()) return facets.all_covered ? 1 : 0;
   return winding_from_facet(facets, all_bodies, vertex);
 }
 

@@ -28,6 +28,7 @@ struct Facets {
   /// lies outside of it.
   std::vector<int> far;
   std::vector<bool> closed;  ///< [body]
+  bool all_covered = false;  ///< without any facet: whether a body is everywhere, or nowhere
 };
 
 /// Checks the surfaces and puts them on a lattice that covers them and the mesh. The rim of an open surface
@@ -41,7 +42,8 @@ int crossing(const Facets& facets, const Facet& facet, const LatticePoint& a, co
 
 /// Winding number of a body about a vertex of the mesh: positive inside. Visits all facets.
 int winding(const Facets& facets, int body, const LatticePoint& vertex);
-/// How many bodies cover a vertex of the mesh, 0 or 1, when no facet lies in another body. Visits all facets.
+/// 1 where a vertex of the mesh is covered by a body, 0 in the fluid, when no facet lies in another body.
+/// Visits all facets.
 int coverage_at(const Facets& facets, const LatticePoint& vertex);
 
 }  // namespace seam::cutting

@@ -6,6 +6,7 @@
 #include "seam/cut/cell_search.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/facets.hpp"
+#include "seam/cut/ghost_values.hpp"
 #include "seam/cut/outline.hpp"
 
 namespace seam::cutting {
@@ -24,16 +25,26 @@ struct Piece {
 /// A signed part of one side of a cell; all of them add up to the side's fluid part.
 struct WetPart {
   int face;
-  std::array<Vector, 3> corner;  ///< segment (two of them) or triangle, oriented as the side
-  double sign = 1;
+  Vector normal;                 ///< unit, of the side, out of the cell
+  std::array<Vector, 3> corner;  ///< segment (two of them) or triangle
+  double sign;                   ///< +1 or -1
+  double area;                   ///< sign included; negative where the corners run against the side
 };
 
 /// Where a facet passes through a side (in the plane) or an edge (in space) of a cell.
 struct Crossing {
+  int body;
   int place;     ///< side of Outline in the plane, edge of Outline in space
   int step;      ///< +1 into the body when walking along it, -1 out of it
   double share;  ///< of its length
   Vector position;
+};
+
+/// In space: where a facet's plane passes through a side; seen from outside the cell the body is on its
+/// right.
+struct Trace {
+  int side;  ///< of Outline
+  Vector from, to;
 };
 
 struct CutCell {
@@ -42,7 +53,9 @@ struct CutCell {
   std::vector<Piece> pieces;
   std::vector<WetPart> wet;
   std::vector<Crossing> crossings;
-  unsigned dry_faces = 0;  ///< bit f: what lies behind face f was too thin to be kept
+  std::vector<Trace> traces;
+  std::vector<int> facets;  ///< of Facets, that may meet the cell
+  unsigned dry_faces = 0;   ///< bit f: what lies behind face f was too thin to be kept
   double fluid_volume = 0, volume = 0, interface_area = 0;
 };
 
@@ -60,9 +73,9 @@ void visit_boundary(int dimension, const CutCell& cell, const Visit& visit) {
     if (p.handed_over) continue;
     const Vector* x = &cell.points[p.first];
     if (dimension == 2)
-      visit(std::array{x[0], x[1], x[1]}, -1.0);
+      visit(std::array{x[0], x[1], x[1]}, -p.scale);
     else
-      for (int k = 1; k + 1 < p.count; ++k) visit(std::array{x[0], x[k], x[k + 1]}, -1.0);
+      for (int k = 1; k + 1 < p.count; ++k) visit(std::array{x[0], x[k], x[k + 1]}, -p.scale);
   }
 }
 
@@ -71,14 +84,14 @@ void visit_boundary(int dimension, const CutCell& cell, const Visit& visit) {
 namespace seam {
 
 struct CutMesh::Geometry {
-  explicit Geometry(const Mesh& mesh) : outline(mesh), search(outline, mesh.cells()) {}
+  explicit Geometry(const Mesh& mesh) : outline(mesh), search(outline, mesh.cells()), ghosts(mesh) {}
 
   cutting::Outline outline;
   cutting::CellSearch search;
+  cutting::GhostValues ghosts;
   std::vector<Surface> bodies;
   cutting::Facets facets;
   std::vector<cutting::LatticePoint> vertex;  ///< of the outline
-  std::vector<int> coverage;                  ///< [vertex]: 0 in the fluid
   std::vector<cutting::CutCell> cells;        ///< ascending
   std::vector<int> index;                     ///< [cell]: into cells, -1 for others
   /// @throws std::logic_error when the cell is not cut

@@ -18,8 +18,8 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A position rounded to the lattice, in units of its spacing; below 2^51 in magnitude. Rounded coordinates are
-/// even, so that the middle between two of them is on the lattice as well.
+/// A position rounded to the lattice, in units of its spacing; below 2^51 in magnitude. Rounded coordinates
+/// are even, so that the middle between two of them is on the lattice as well.
 struct LatticePoint {
   std::array<std::int64_t, 3> x{};
   friend auto operator<=>(const LatticePoint&, const LatticePoint&) = default;

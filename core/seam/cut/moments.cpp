@@ -2,7 +2,6 @@
 #include "seam/cut/moments.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "seam/cut/legendre.hpp"
 #include "seam/mesh/quadrature.hpp"
@@ -102,8 +101,7 @@ void face_moments(int dimension, const CellMap& map, const CutCell& cell, int fa
   std::array<Values, 3> value{};
   for (const WetPart& w : cell.wet) {
     if (w.face != face) continue;
-    const Vector area = vector_area(dimension, w.corner[0], w.corner[1], w.corner[2]);
-    const double weight = w.sign * std::sqrt(dot(area, area)) * (dimension == 3 ? 2 : 1);
+    const double weight = w.area * (dimension == 3 ? 2 : 1);
     for (int q = 0; q < rule.count(); ++q) {
       const Vector p = at(rule, q, {w.corner[1], w.corner[2], w.corner[2]}, w.corner[0]);
       const Vector on_face = map.to_reference(p) - face_origin;

@@ -198,4 +198,11 @@ double Outline::volume(int cell) const {
   return sum;
 }
 
+Vector side_normal(const Outline& outline, const Side& side) {
+  const Vector &a = outline.position[side.vertex[0]], &b = outline.position[side.vertex[1]];
+  const Vector normal = outline.dimension == 2 ? Vector{b[1] - a[1], a[0] - b[0], 0}
+                                               : cross(b - a, outline.position[side.vertex[2]] - a);
+  return 1 / std::sqrt(dot(normal, normal)) * normal;
+}
+
 }  // namespace seam::cutting

@@ -60,4 +60,7 @@ class Outline {
   std::map<std::array<int, 4>, int> middles_;  ///< of faces that are not planar, by their sorted corners
 };
 
+/// Unit normal out of the cell.
+Vector side_normal(const Outline& outline, const Side& side);
+
 }  // namespace seam::cutting

@@ -10,35 +10,26 @@ namespace {
 
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-CutCell whole_cell(const Outline& outline, int cell) {
-  CutCell whole;
-  whole.cell = cell;
-  for (int s = outline.first_side[cell]; s < outline.first_side[cell + 1]; ++s) {
-    const Side& side = outline.sides[s];
-    WetPart part{side.face, {}};
-    for (int k = 0; k < 3; ++k)
-      part.corner[k] = outline.position[side.vertex[std::min(k, outline.dimension - 1)]];
-    whole.wet.push_back(part);
-  }
-  measure(outline, whole);
-  return whole;
-}
-
 int face_towards(const Outline& outline, int cell, int other) {
   for (int f = 0; f < 8; ++f)
     if (outline.neighbour[cell][f] == other) return f;
   return -1;
 }
 
-/// For a face that no piece of the sliver is opposite to: the face itself closes the receiver.
-void lay_face(int dimension, const CutCell& sliver, int face, const Vector& normal, CutCell& receiver) {
-  for (const WetPart& w : sliver.wet) {
-    if (w.face != face) continue;
-    receiver.pieces.push_back({sliver.pieces[0].body, sliver.pieces[0].facet,
-                               static_cast<int>(receiver.points.size()), dimension, normal, 1.0, true});
-    // Seen from the receiver the face runs the other way, and so does a piece compared with a side.
-    receiver.points.insert(receiver.points.end(), w.corner.begin(), w.corner.begin() + dimension);
-  }
+/// For a face that no piece of the sliver is opposite to: its largest fluid part, with the area of all,
+/// closes the receiver.
+void lay_face(int dimension, const CutCell& sliver, int face, const Vector& outward, CutCell& receiver) {
+  const WetPart* largest = nullptr;
+  for (const WetPart& w : sliver.wet)
+    if (w.face == face && (largest == nullptr || w.area > largest->area)) largest = &w;
+  if (largest == nullptr || largest->area <= 0) return;
+  const double area = length(outward);
+  const int first = static_cast<int>(receiver.points.size());
+  receiver.points.insert(receiver.points.end(), largest->corner.begin(), largest->corner.begin() + dimension);
+  // A piece is oriented against its normal; turned round where the part ran against the side.
+  if (largest->sign < 0) std::swap(receiver.points[first], receiver.points[first + 1]);
+  receiver.pieces.push_back({sliver.pieces[0].body, sliver.pieces[0].facet, first, dimension,
+                             1 / area * outward, area / largest->area, true});
 }
 
 /// Lays the pieces of a sliver onto one of its fluid faces.
@@ -51,13 +42,18 @@ void hand_over(int dimension, const CutCell& sliver, int face, const Vector& out
     if (w.face == face) anchor = w.corner[0];
   double sum = 0;
   std::vector<double> share;
-  for (const Piece& p : sliver.pieces)
-    sum += share.emplace_back(std::max(0.0, dot(vector_area(dimension, sliver, p), normal)));
+  for (const Piece& p : sliver.pieces) {
+    const Vector a = vector_area(dimension, sliver, p);
+    // Pieces at right angles to the face have no share but rounding.
+    const double opposite = dot(a, normal);
+    sum += share.emplace_back(opposite > 1e-12 * length(a) ? opposite : 0.0);
+  }
   double laid = 0;
   for (std::size_t k = 0; k < share.size(); ++k) {
     Piece piece = sliver.pieces[k];
     piece.handed_over = true;
     piece.normal = normal;
+    piece.scale = 1;
     const int first = piece.first;
     piece.first = static_cast<int>(receiver.points.size());
     for (int i = 0; i < piece.count; ++i) {
@@ -70,7 +66,7 @@ void hand_over(int dimension, const CutCell& sliver, int face, const Vector& out
     laid += area * share[k] / sum;
     receiver.pieces.push_back(piece);
   }
-  if (laid == 0) lay_face(dimension, sliver, face, normal, receiver);
+  if (laid == 0 && !sliver.pieces.empty()) lay_face(dimension, sliver, face, outward, receiver);
 }
 
 class Settlement {
@@ -80,9 +76,20 @@ class Settlement {
     for (std::size_t k = 0; k < cells.size(); ++k) index_[cells[k].cell] = k;
   }
 
-  void run() {
+  void settle() {
+    for (const CutCell& c : cells_) state_[c.cell] = decide(c);
+    clear_bodies();
+  }
+
+  void drop(const std::vector<char>& dropped) {
+    for (std::size_t c = 0; c < dropped.size(); ++c)
+      if (dropped[c] != 0) state_[c] = CellState::body;
+    clear_bodies();
+  }
+
+ private:
+  void clear_bodies() {
     const std::size_t original = cells_.size();
-    for (std::size_t k = 0; k < original; ++k) state_[cells_[k].cell] = decide(cells_[k]);
     for (std::size_t k = 0; k < original; ++k)
       if (state_[cells_[k].cell] == CellState::body) clear(k);
     std::erase_if(cells_, [&](const CutCell& c) { return state_[c.cell] != CellState::cut; });
@@ -93,7 +100,6 @@ class Settlement {
         measure(outline_, c);
   }
 
- private:
   [[nodiscard]] CellState decide(const CutCell& c) const {
     if (c.fluid_volume < smallest_part * c.volume) return CellState::body;
     const double size = std::pow(c.volume, (outline_.dimension - 1.0) / outline_.dimension);
@@ -104,21 +110,28 @@ class Settlement {
     const int cell = cells_[sliver].cell;
     for (int f = 0; f < 8; ++f) {
       const int other = outline_.neighbour[cell][f];
-      if (other < 0 || state_[other] == CellState::body) continue;
-      Vector out{};
-      for (const WetPart& w : cells_[sliver].wet)
-        if (w.face == f)
-          out = out + w.sign * vector_area(outline_.dimension, w.corner[0], w.corner[1], w.corner[2]);
-      if (length(out) == 0) continue;
+      if (other < 0 || state_[other] == CellState::body || length(fluid_area(cells_[sliver], f)) == 0)
+        continue;
       if (!index_.contains(other)) {
         index_[other] = cells_.size();
         cells_.push_back(whole_cell(outline_, other));
       }
-      state_[other] = CellState::cut;
       CutCell& receiver = cells_[index_[other]];
-      receiver.dry_faces |= 1U << face_towards(outline_, other, cell);
-      hand_over(outline_.dimension, cells_[sliver], f, -1 * out, receiver);
+      // What the receiver loses, not what the sliver has: so its boundary stays closed to the last digit.
+      const int face = face_towards(outline_, other, cell);
+      const Vector lost = fluid_area(receiver, face);
+      if (length(lost) == 0) continue;
+      state_[other] = CellState::cut;
+      receiver.dry_faces |= 1U << face;
+      hand_over(outline_.dimension, cells_[sliver], f, lost, receiver);
     }
+  }
+
+  static Vector fluid_area(const CutCell& cell, int face) {
+    Vector sum{};
+    for (const WetPart& w : cell.wet)
+      if (w.face == face) sum = sum + w.area * w.normal;
+    return sum;
   }
 
   const Outline& outline_;
@@ -154,7 +167,27 @@ void measure(const Outline& outline, CutCell& cell) {
 }
 
 void settle_slivers(const Outline& outline, std::vector<CutCell>& cells, std::vector<CellState>& state) {
-  Settlement(outline, cells, state).run();
+  Settlement(outline, cells, state).settle();
+}
+
+void drop_cells(const Outline& outline, const std::vector<char>& dropped, std::vector<CutCell>& cells,
+                std::vector<CellState>& state) {
+  Settlement(outline, cells, state).drop(dropped);
+}
+
+CutCell whole_cell(const Outline& outline, int cell) {
+  CutCell whole;
+  whole.cell = cell;
+  for (int s = outline.first_side[cell]; s < outline.first_side[cell + 1]; ++s) {
+    const Side& side = outline.sides[s];
+    WetPart part{side.face, side_normal(outline, side), {}, 1.0, 0.0};
+    for (int k = 0; k < 3; ++k)
+      part.corner[k] = outline.position[side.vertex[std::min(k, outline.dimension - 1)]];
+    part.area = length(vector_area(outline.dimension, part.corner[0], part.corner[1], part.corner[2]));
+    whole.wet.push_back(part);
+  }
+  measure(outline, whole);
+  return whole;
 }
 
 }  // namespace seam::cutting

@@ -19,4 +19,11 @@ void measure(const Outline& outline, CutCell& cell);
 /// is negligible become fluid. Sets `state` of all cells concerned.
 void settle_slivers(const Outline& outline, std::vector<CutCell>& cells, std::vector<CellState>& state);
 
+/// A cell that is fluid all over, as a cut cell.
+CutCell whole_cell(const Outline& outline, int cell);
+
+/// Turns the marked cells into body; where a neighbour stays, pieces are handed over as those of slivers.
+void drop_cells(const Outline& outline, const std::vector<char>& dropped, std::vector<CutCell>& cells,
+                std::vector<CellState>& state);
+
 }  // namespace seam::cutting

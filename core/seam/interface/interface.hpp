@@ -3,16 +3,17 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "seam/assembly/element.hpp"
+#include "seam/cut/body.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
 
 class FieldCut;
-struct MeshData;
 
 /// What the core hands to an interface when a scene is built.
 class InterfaceSetup {
@@ -34,6 +35,13 @@ class Interface {
   virtual ~Interface() = default;
   /// Names of the fields on its sides, side 0 first.
   [[nodiscard]] virtual std::vector<std::string> fields() const = 0;
+  /// The surface of a body that the interface cuts out of the mesh of side 0, where it can be told before
+  /// fields exist: meshes are distributed by what their cells will cost.
+  [[nodiscard]] virtual std::optional<Surface> body(const MeshFinder& meshes, int dimension,
+                                                    double time) const {
+    (void)meshes, (void)dimension, (void)time;
+    return std::nullopt;
+  }
   /// Finds the pieces of the interface. Collective.
   [[nodiscard]] virtual std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const = 0;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "seam/base/stopwatch.hpp"
+#include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
 #include "seam/run/derived.hpp"
 #include "seam/run/progress.hpp"
@@ -74,12 +75,28 @@ void Simulation::read_time() {
 void Simulation::build_fields(const Registry& registry) {
   meshes_ = load_meshes(scene_);
   check_mesh_names(scene_, registry, mesh_names(meshes_));
+  for (const auto& [name, parameters] : scene_.root.map("interfaces"))
+    interfaces_.emplace_back(name, registry.create<Interface>("interface", parameters));
   std::map<std::string, std::shared_ptr<const Mesh>> meshes;
   for (const auto& [name, parameters] : scene_.root.map("fields")) {
     const std::string& mesh = parameters.text("mesh");
-    if (!meshes.contains(mesh)) meshes[mesh] = std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_);
+    if (!meshes.contains(mesh))
+      meshes[mesh] = std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh));
     problem_.add_field(name, meshes[mesh], registry.create<Physics>("field", parameters));
   }
+}
+
+/// What the cells of a mesh cost, from the bodies that cut it at the start; empty where they all cost the same.
+std::vector<double> Simulation::cell_costs(const std::string& mesh) const {
+  if (communicator_.size() == 1) return {};
+  std::vector<Surface> bodies;
+  const MeshFinder find = [&](const std::string& name) { return meshes_.at(name); };
+  for (const auto& [name, interface] : interfaces_)
+    for (const auto& [field, parameters] : scene_.root.map("fields"))
+      if (field == interface->fields().front() && parameters.text("mesh") == mesh)
+        if (auto body = interface->body(find, meshes_.at(mesh)->dimension, time_.start))
+          bodies.push_back(std::move(*body));
+  return bodies.empty() ? std::vector<double>{} : cut_cell_costs(meshes_.at(mesh), bodies);
 }
 
 /// What an interface may ask of the scene while it is built.
@@ -110,8 +127,7 @@ void Simulation::build_couplings(const Registry& registry) {
     std::vector<Field*> sides;
   };
   std::map<std::string, Built> interfaces;
-  for (const auto& [name, parameters] : scene_.root.map("interfaces")) {
-    const auto interface = registry.create<Interface>("interface", parameters);
+  for (const auto& [name, interface] : interfaces_) {
     Setup setup(*this, interface->fields());
     interfaces[name] = {interface->build(setup), setup.sides};
     problem_.name_interface(name, interfaces[name].domain);

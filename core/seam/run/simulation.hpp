@@ -67,6 +67,7 @@ class Simulation {
   class Setup;
   void read_time();
   void build_fields(const Registry& registry);
+  [[nodiscard]] std::vector<double> cell_costs(const std::string& mesh) const;
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
   bool try_step(double step);
@@ -83,6 +84,7 @@ class Simulation {
   const Scene& scene_;
   Communicator communicator_;
   std::map<std::string, std::shared_ptr<const MeshData>> meshes_;
+  std::vector<std::pair<std::string, std::unique_ptr<Interface>>> interfaces_;
   Problem problem_;
   std::unique_ptr<LinearSolver> linear_;
   std::unique_ptr<Newton> newton_;

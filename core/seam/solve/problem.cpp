@@ -81,6 +81,17 @@ FieldEntry& Problem::field(const std::string& name) {
   throw Error(fmt::format("there is no field '{}'; the scene has: {}", name, fmt::join(names, ", ")));
 }
 
+bool Problem::constrains_rates() const {
+  for (const FieldEntry& entry : fields_) {
+    const auto has_order = [&](int order) {
+      return std::any_of(entry.field->unknowns().begin(), entry.field->unknowns().end(),
+                         [&](const Unknown& u) { return u.time_order == order; });
+    };
+    if (has_order(0) && has_order(1)) return true;
+  }
+  return false;
+}
+
 bool Problem::has_rates() const {
   for (const FieldEntry& entry : fields_)
     for (const Unknown& unknown : entry.field->unknowns())

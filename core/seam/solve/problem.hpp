@@ -111,7 +111,13 @@ class Problem {
   /// crushes no cell.
   void initialise(double time, bool impose_prescribed = true);
   /// True when the scheme needs rates at the start that the scene does not give.
-  [[nodiscard]] bool needs_initial_rates(double theta) const { return theta < 1 && has_rates(); }
+  [[nodiscard]] bool needs_initial_rates(double theta) const {
+    return theta < 1 && has_rates() && !constrains_rates();
+  }
+  /// True when a field has an unknown with a first rate beside one without any: velocity and pressure of
+  /// incompressible flow. Initial rates must then satisfy the constraint, too, which the balance at the start
+  /// does not say: the first step is taken with theta = 1 instead and brings them.
+  [[nodiscard]] bool constrains_rates() const;
   /// Adds an increment of the highest rates (of the value, where an unknown has none): the solution of the
   /// system assembled with TimePoint::initial_rates.
   void add_initial_rates(const std::vector<double>& increment);

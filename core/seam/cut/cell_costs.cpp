@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/cut/cell_costs.hpp"
+
+#include "seam/cut/cut_mesh.hpp"
+
+namespace seam {
+
+std::vector<double> cut_cell_costs(const std::shared_ptr<const MeshData>& mesh,
+                                   const std::vector<Surface>& bodies) {
+  // Every rank holds the whole mesh at the start and finds the same costs.
+  const Mesh whole("whole", mesh, Communicator(MPI_COMM_SELF));
+  CutMesh cut(whole);
+  cut.cut(bodies);
+  std::vector<double> cost(whole.cells());
+  for (int c = 0; c < whole.cells(); ++c) {
+    const CellState state = cut.state(c);
+    cost[whole.global_cell(c)] = state == CellState::fluid ? 1.0 : state == CellState::cut ? 4.0 : 0.05;
+  }
+  return cost;
+}
+
+}  // namespace seam

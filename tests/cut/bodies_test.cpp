@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Several bodies in the plane, and surfaces that are not closed.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "cut/cut_test.hpp"
+
+using namespace seam;
+
+namespace {
+
+Surface rectangle(double x0, double y0, double x1, double y1) {
+  return polygon({{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}});
+}
+
+Surface open_line(const std::vector<Point>& points) {
+  Surface s = polygon(points);
+  s.facets.resize(s.facets.size() - 2);
+  s.closed = false;
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("The fluid lies outside of all bodies", "[cut][bodies]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {9, 7, 0}, unmoved());
+  CutMesh cut(mesh);
+  struct Case {
+    const char* name;
+    std::vector<Surface> bodies;
+    double body, interface;
+  };
+  const std::vector<Case> cases{
+      {"apart", {rectangle(.1, .1, .3, .3), rectangle(.5, .5, .6, .7)}, .06, 1.4},
+      {"overlapping", {rectangle(.1, .1, .5, .5), rectangle(.3, .3, .7, .8)}, .32, 1.6 + 1.8 - .8},
+      {"touching along a side", {rectangle(.1, .1, .3, .3), rectangle(.3, .1, .5, .3)}, .08, 1.2},
+      {"touching along a part of a side",
+       {rectangle(.1, .1, .3, .3), rectangle(.3, .2, .5, .5)},
+       .10,
+       1.8 - .2},
+      {"touching in a corner", {rectangle(.1, .1, .3, .3), rectangle(.3, .3, .5, .5)}, .08, 1.6},
+      {"one inside the other", {rectangle(.1, .1, .9, .9), rectangle(.3, .3, .5, .5)}, .64, 3.2},
+      {"the same twice", {rectangle(.1, .1, .3, .3), rectangle(.1, .1, .3, .3)}, .04, .8},
+      {"filling a hole", {reversed(rectangle(.2, .2, .8, .8)), rectangle(.2, .2, .5, .8)}, 1 - .18, 1.8},
+      {"crossing itself",
+       {polygon({{.1, .1, 0},
+                 {.7, .1, 0},
+                 {.7, .5, 0},
+                 {.3, .5, 0},
+                 {.3, .3, 0},
+                 {.5, .3, 0},
+                 {.5, .7, 0},
+                 {.1, .7, 0}})},
+       // The loop winds twice round a square of 0.2 by 0.2 and encloses no hole.
+       .6 * .4 + .4 * .2,
+       2.4},
+  };
+  for (const Case& c : cases) {
+    INFO(c.name);
+    cut.cut(c.bodies);
+    check_closure(cut);
+    CHECK(total_fluid(cut) == Approx(1 - c.body).epsilon(1e-12));
+    CHECK(total_interface(cut) == Approx(c.interface).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Random overlapping outlines: area by inclusion and exclusion", "[cut][bodies]") {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const Mesh mesh = grid(CellType::triangle, {6, 5, 0}, rotated(2, 0.4, {1, 1.3, 1}, {0, 0, 0}));
+  CutMesh cut(mesh), complement(mesh);
+  long cuts = 0;
+  for (int k = 0; k < 300 * effort(); ++k) {
+    const auto near = [&] { return Point{-0.2 + 0.6 * unit(random), 0.4 + 0.5 * unit(random), 0}; };
+    const Surface a = star(random, near(), 0.4, 3 + random() % 9),
+                  b = star(random, near(), 0.4, 3 + random() % 9);
+    const auto fluid = [&](const std::vector<Surface>& bodies) {
+      cut.cut(bodies);
+      cuts += check_closure(cut);
+      return total_fluid(cut);
+    };
+    // |A u B| = |A| + |B| - |A n B|, and A n B is what the union of both complements leaves.
+    const double whole = fluid({}), left = fluid({a, b}), common = fluid({reversed(a), reversed(b)});
+    CHECK(whole - left == Approx(2 * whole - fluid({a}) - fluid({b}) - common).margin(1e-11 * whole));
+  }
+  CHECK(cuts > 10000 * effort());
+}
+
+TEST_CASE("Bodies that touch, moved against each other by steps from 1e-16 to 1e-1", "[cut][bodies]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {8, 8, 0}, unmoved());
+  CutMesh cut(mesh);
+  for (const double sign : {1.0, -1.0})
+    for (int exponent = -160; exponent <= -10; ++exponent) {
+      const double gap = sign * 0.1 * std::pow(10.0, exponent / 10.0);
+      const double left = 0.1 + 0.3, right = left + gap;
+      cut.cut(std::vector{rectangle(.1, .1, left, .6), rectangle(right, .2, .9, .7)});
+      check_closure(cut);
+      const double body = .3 * .5 + (.9 - right) * .5 - std::max(0.0, -gap) * .4;
+      CHECK(total_fluid(cut) == Approx(1 - body).epsilon(1e-11));
+    }
+}
+
+TEST_CASE("Open surfaces cut off what lies behind them", "[cut][bodies]") {
+  for (const CellType type : {CellType::quadrilateral, CellType::triangle}) {
+    const Mesh mesh = grid(type, {8, 6, 0}, unmoved());
+    CutMesh cut(mesh);
+    // Ends on the boundary, outside, and on a mesh line; the body lies to the left.
+    for (const auto& [points, fluid] : std::vector<std::pair<std::vector<Point>, double>>{
+             {{{0, .4, 0}, {1, .4, 0}}, .4},
+             {{{1, .4, 0}, {0, .4, 0}}, .6},
+             {{{-.3, .4, 0}, {.5, .2, 0}, {1.3, .4, 0}}, (.325 + .2) / 2},
+             {{{0, .5, 0}, {.5, .5, 0}, {1, .5, 0}}, .5},
+             {{{0, 2, 0}, {1, 2, 0}}, 1},
+             {{{1, 2, 0}, {0, 2, 0}}, 0}}) {
+      const Surface s = open_line(points);
+      cut.cut(std::span(&s, 1));
+      check_closure(cut);
+      CHECK(total_fluid(cut) == Approx(fluid).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("Both walls of a channel in one open surface, and a body touching a wall", "[cut][bodies]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {8, 6, 0}, unmoved());
+  CutMesh cut(mesh);
+  Surface walls = open_line({{0, .8, 0}, {1, .8, 0}});
+  walls.points.insert(walls.points.end(), {1, .1, 0, .1});
+  walls.facets.insert(walls.facets.end(), {2, 3});
+  cut.cut(std::vector{walls, rectangle(.3, .1, .5, .4)});
+  check_closure(cut);
+  CHECK(total_fluid(cut) == Approx(.7 - .06).epsilon(1e-12));
+  CHECK(total_interface(cut) == Approx(1 + 1 - .2 + .8).epsilon(1e-12));
+}
+
+TEST_CASE("Broken surfaces are refused with a reason", "[cut][bodies]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {4, 4, 0}, unmoved());
+  CutMesh cut(mesh);
+  const auto message = [&](const Surface& s) -> std::string {
+    try {
+      cut.cut(std::vector{rectangle(.1, .1, .2, .2), s});
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    return "";
+  };
+  Surface s = rectangle(.4, .4, .7, .7);
+  CHECK(message(s).empty());
+  s.points[3] = NAN;
+  CHECK_THAT(message(s), Catch::Contains("body 1, facet 0: vertex 1 has the coordinate nan"));
+  s = rectangle(.4, .4, .7, .7);
+  s.facets[4] = 9;
+  CHECK_THAT(message(s),
+             Catch::Contains("body 1, facet 2: vertex 9 does not exist; the surface has 4 vertices"));
+  s = rectangle(.4, .4, .7, .7);
+  s.facets.resize(6);
+  CHECK_THAT(message(s), Catch::Contains("body 1: its surface is not closed at facet"));
+  s.closed = false;
+  CHECK_THAT(message(s), Catch::Contains("not closed inside of it"));
+  s.facets.clear();
+  CHECK_THAT(message(s), Catch::Contains("body 1: its surface has no facet"));
+}
