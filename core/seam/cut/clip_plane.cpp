@@ -52,7 +52,7 @@ void find_events(const ClipInput& input, const Facet& facet, CutCell& cell, std:
     const double on_edge = ratio(area(xp, xq, xa, side_a), area(xp, xq, xb, side_b));
     const double on_facet = ratio(area(xa, xb, xp, side_p), area(xa, xb, xq, side_q));
     const Vector position = xa + on_edge * (xb - xa);
-    const int along = side.forward[0];
+    const int along = side.forward[0] > 0 ? 1 : -1;
     cell.crossings.push_back({facet.body, s, along * side_b, along > 0 ? on_edge : 1 - on_edge, position});
     events.push_back({on_facet, along * side_q, position});
   }

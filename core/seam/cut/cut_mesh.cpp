@@ -97,7 +97,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
   g.bodies.assign(bodies.begin(), bodies.end());
   const Lattice before = g.facets.lattice;
   g.facets = collect_facets(g.outline, bodies);
-  if (dim == 2) g.facets = unite_in_plane(std::move(g.facets));
+  if (dim == 2) unite_in_plane(g.facets);
   if (g.vertex.empty() || !(g.facets.lattice == before)) {
     g.vertex.clear();
     for (const Vector& x : g.outline.position) g.vertex.push_back(g.facets.lattice.round(x));
@@ -120,6 +120,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
     measure(g.outline, c);
   }
   settle_slivers(g.outline, g.cells, state_);
+  g.coverage = coverage.count();
   adopt_ghost_states();
   number_cut_cells();
 }

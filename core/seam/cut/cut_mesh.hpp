@@ -32,6 +32,14 @@ struct InterfaceRule : CutRule {
                                         ///< the origin, vertices 1 and 2 the unit points
 };
 
+/// The boundary of the fluid part of a cell. In the plane: its outlines, counter-clockwise, holes clockwise.
+/// In space: the faces of its polyhedron, counter-clockwise seen from outside.
+struct FluidShape {
+  std::vector<double> points;  ///< [point][dimension], m; polygons behind each other
+  std::vector<int> first;      ///< [polygon + 1]: its first point
+  [[nodiscard]] int count() const { return static_cast<int>(first.size()) - 1; }
+};
+
 /// The fluid part of a mesh from which bodies are cut out. The fluid lies outside all bodies; the interface
 /// is exactly its boundary. For every cut cell, to rounding: fluid part + body part = cell; the areas of the
 /// interface and of the fluid parts of the cell's faces add up to zero as vectors; polynomials up to the
@@ -63,6 +71,9 @@ class CutMesh {
   void interface_rule(int cell, int degree, InterfaceRule& rule) const;
   /// Rule for the fluid part of one face of a cut cell; empty where the face is dry.
   void face_rule(int cell, int face, int degree, CutRule& rule) const;
+
+  /// For pictures. The cell must be cut.
+  void fluid_shape(int cell, FluidShape& shape) const;
 
   /// Collective.
   [[nodiscard]] FluidParts find_parts() const;

@@ -102,32 +102,54 @@ int append_point(Facets& facets, const Vector& x) {
 }
 
 void append_facet(Facets& facets, const std::array<int, 3>& v, int body, int facet, const Vector& normal) {
-  const LatticePoint &p = facets.point[v[0]], &q = facets.point[v[1]], &r = facets.point[v[2]];
-  if (facets.dimension == 2 ? p == q : collinear(p, q, r)) return;
   facets.list.push_back({v, body, facet, normal});
 }
 
-/// Direction out of the facet, in its plane, across its boundary part `rim`; of the length of the facet.
-Vector outward(const Facets& facets, const Rim& rim) {
-  const auto& v = facets.list[rim.facet].vertex;
-  const Vector &a = facets.position[v[0]], &b = facets.position[v[1]];
-  if (facets.dimension == 2) return rim.sign > 0 ? b - a : a - b;
-  const Vector edge = facets.position[rim.vertex[1]] - facets.position[rim.vertex[0]];
-  return -1 * cross(facets.list[rim.facet].normal, edge);
+/// Directions out of the surface at the vertices of its rim: away from the middles of the facets there,
+/// weighted with their areas, as narrow ones have no direction but rounding.
+std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::vector<Rim>& rims) {
+  std::map<LatticePoint, Vector> out;
+  for (const Rim& rim : rims)
+    for (const int v : rim.vertex) out[facets.point[v]] = {};
+  double largest = 0;
+  for (const Facet& f : facets.list) {
+    if (f.body != facets.list[rims.front().facet].body) continue;
+    const Vector &p = facets.position[f.vertex[0]], &q = facets.position[f.vertex[1]],
+                 &r = facets.position[f.vertex[2]];
+    const Vector area = facets.dimension == 2 ? q - p : cross(q - p, r - p);
+    const Vector middle = facets.dimension == 2 ? 0.5 * (p + q) : 1.0 / 3 * (p + (q + r));
+    for (int k = 0; k < facets.dimension; ++k) {
+      const auto found = out.find(facets.point[f.vertex[k]]);
+      if (found == out.end()) continue;
+      found->second = found->second + std::sqrt(dot(area, area)) * (facets.position[f.vertex[k]] - middle);
+      largest = std::max(largest, dot(found->second, found->second));
+    }
+  }
+  const auto known = out;
+  for (const Rim& rim : rims)
+    for (int k = 0; k < 2; ++k) {
+      const Vector& other = known.at(facets.point[rim.vertex[1 - k]]);
+      const Vector& own = known.at(facets.point[rim.vertex[k]]);
+      if (dot(own, own) < 1e-20 * largest) out[facets.point[rim.vertex[k]]] = other;
+    }
+  return out;
 }
 
 /// Sews a narrow strip to the rim.
 void prolong(Facets& facets, const std::vector<Rim>& rims) {
   constexpr double share = 1e-6;  // of a facet: beyond all rounding, too little to reach into the mesh again
-  std::map<LatticePoint, Vector> shift;
-  for (const Rim& rim : rims)
-    for (int k = 0; k < (facets.dimension == 2 ? 1 : 2); ++k) {
-      Vector& s = shift[facets.point[rim.vertex[k]]];
-      s = s + share * outward(facets, rim);
-    }
+  double longest = 0;
+  for (const Rim& rim : rims) {
+    const auto& v = facets.list[rim.facet].vertex;
+    const Vector edge = facets.position[v[1]] - facets.position[v[0]];
+    longest = std::max(longest, std::sqrt(dot(edge, edge)));
+  }
   std::map<LatticePoint, int> prolonged;
-  for (const auto& [point, by] : shift)
-    prolonged[point] = append_point(facets, facets.lattice.position(point) + by);
+  for (const auto& [point, out] : directions_out(facets, rims)) {
+    const double length = std::sqrt(dot(out, out));
+    const Vector shift = length > 0 ? share * longest / length * out : Vector{};
+    prolonged[point] = append_point(facets, facets.lattice.position(point) + shift);
+  }
   for (const Rim& rim : rims) {
     const Facet source = facets.list[rim.facet];
     const int a = rim.vertex[0], b = rim.vertex[1];
@@ -173,10 +195,16 @@ void append_body(Facets& facets, const Surface& surface, int body) {
         "lies outside the mesh",
         body, facets.list[rim.facet].facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
   }
-  const bool empty = first_facet == static_cast<int>(facets.list.size());
-  facets.far.push_back(surface.closed && !empty && enclosed(facets, first_facet) < 0 ? 1 : 0);
+  facets.far.push_back(surface.closed && enclosed(facets, first_facet) < 0 ? 1 : 0);
   facets.closed.push_back(surface.closed);
-  if (!surface.closed) prolong(facets, rims);
+  if (!rims.empty()) prolong(facets, rims);
+  // Facets without extent meet nothing. Only their edges counted, where neighbours meet at a vertex between.
+  const auto is_degenerate = [&](const Facet& f) {
+    const LatticePoint &p = facets.point[f.vertex[0]], &q = facets.point[f.vertex[1]];
+    return dim == 2 ? p == q : collinear(p, q, facets.point[f.vertex[2]]);
+  };
+  facets.list.erase(std::remove_if(facets.list.begin() + first_facet, facets.list.end(), is_degenerate),
+                    facets.list.end());
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ struct CutCell {
   std::vector<Crossing> crossings;
   std::vector<Trace> traces;
   std::vector<int> facets;  ///< of Facets, that may meet the cell
+  bool united = false;      ///< fluid parts of faces are triangles that do not overlap
   unsigned dry_faces = 0;   ///< bit f: what lies behind face f was too thin to be kept
   double fluid_volume = 0, volume = 0, interface_area = 0;
 };
@@ -92,6 +93,7 @@ struct CutMesh::Geometry {
   std::vector<Surface> bodies;
   cutting::Facets facets;
   std::vector<cutting::LatticePoint> vertex;  ///< of the outline
+  std::vector<int> coverage;                  ///< [vertex]: 0 in the fluid
   std::vector<cutting::CutCell> cells;        ///< ascending
   std::vector<int> index;                     ///< [cell]: into cells, -1 for others
   /// @throws std::logic_error when the cell is not cut

@@ -178,6 +178,7 @@ void drop_cells(const Outline& outline, const std::vector<char>& dropped, std::v
 CutCell whole_cell(const Outline& outline, int cell) {
   CutCell whole;
   whole.cell = cell;
+  whole.united = true;
   for (int s = outline.first_side[cell]; s < outline.first_side[cell + 1]; ++s) {
     const Side& side = outline.sides[s];
     WetPart part{side.face, side_normal(outline, side), {}, 1.0, 0.0};

@@ -177,9 +177,9 @@ std::vector<int> Union::choose() {
 
 }  // namespace
 
-Facets unite_in_plane(Facets facets) {
-  Facets result;
-  return Union(facets).build(result) ? result : facets;
+void unite_in_plane(Facets& facets) {
+  Facets united;
+  if (Union(facets).build(united)) facets = std::move(united);
 }
 
 }  // namespace seam::cutting

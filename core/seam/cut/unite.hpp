@@ -5,10 +5,10 @@
 
 namespace seam::cutting {
 
-/// The boundary of the union of all bodies in the plane: facets, or their parts, that have fluid on one side
-/// and a body on the other. Facets are split where they meet, at points of the lattice, and each kind of part
-/// is tested exactly once. A point is covered when the winding number of any body is positive there.
-/// @return the facets themselves when all of them remain whole
-Facets unite_in_plane(Facets facets);
+/// Replaces the facets by the boundary of the union of all bodies in the plane: facets, or their parts, that
+/// have fluid on one side and a body on the other. Facets are split where they meet, at points of the
+/// lattice, and each kind of part is tested exactly once. A point is covered when the winding number of any
+/// body is positive there.
+void unite_in_plane(Facets& facets);
 
 }  // namespace seam::cutting

@@ -54,6 +54,7 @@ class CellUnion {
     } else {
       for (const Convex::Face& base : whole.faces) add_part(cone(base, centre_));
     }
+    cell_.united = true;
     cell_.wet = std::move(wet_);
     cell_.pieces = std::move(pieces_);
     cell_.points = std::move(points_);

@@ -93,14 +93,14 @@ Teuchos::RCP<TpetraMatrix> diagonal_block(const Teuchos::RCP<TpetraMatrix>& syst
 
 }  // namespace
 
-Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix) {
+Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix, int fill) {
   Ifpack2::Factory factory;
   const Teuchos::RCP<const Tpetra::RowMatrix<double, int, long long>> rows = matrix;
   auto result = factory.create<Tpetra::RowMatrix<double, int, long long>>("SCHWARZ", rows);
   Teuchos::ParameterList parameters;
   parameters.set("schwarz: inner preconditioner name", "RILUK");
   parameters.set("schwarz: overlap level", matrix->getComm()->getSize() > 1 ? 1 : 0);
-  parameters.sublist("schwarz: inner preconditioner parameters").set("fact: iluk level-of-fill", 1);
+  parameters.sublist("schwarz: inner preconditioner parameters").set("fact: iluk level-of-fill", fill);
   result->setParameters(parameters);
   result->initialize();
   result->compute();
@@ -110,7 +110,7 @@ Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>
 Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
                                                      const Matrix& a,
                                                      const std::vector<EquationBlock>& blocks,
-                                                     bool multigrid) {
+                                                     bool multigrid, int fill) {
   std::vector<BlockGaussSeidel::Part> parts;
   for (const EquationBlock& block : blocks) {
     const auto matrix = blocks.size() == 1 ? system : diagonal_block(system, a, block);
@@ -118,7 +118,7 @@ Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMa
     const bool coarsen = multigrid && matrix->getGlobalNumRows() > 2000 &&
                          (block.unknowns_per_node == block.dimension || block.unknowns_per_node == 1);
     parts.push_back({block.first, block.count, matrix->getRowMap(),
-                     coarsen ? make_multigrid(matrix, block) : make_incomplete_lu(matrix)});
+                     coarsen ? make_multigrid(matrix, block) : make_incomplete_lu(matrix, fill)});
   }
   if (parts.size() == 1) return parts[0].inverse;
   return Teuchos::rcp(new BlockGaussSeidel(system, std::move(parts)));

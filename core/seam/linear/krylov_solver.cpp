@@ -22,7 +22,8 @@ KrylovSolver::KrylovSolver(const Parameters& p)
       maximum_iterations_(static_cast<int>(p.integer("maximum_iterations"))),
       restart_(static_cast<int>(p.integer("restart"))),
       keep_(p.number("keep")),
-      multigrid_(p.text("preconditioner") == "multigrid") {
+      multigrid_(p.text("preconditioner") == "multigrid"),
+      fill_(static_cast<int>(p.integer("fill"))) {
   acceptable_residual_ = 100 * tolerance_;
 }
 
@@ -40,6 +41,10 @@ Schema KrylovSolver::schema() {
   s.choice("preconditioner", "Per field block: multigrid where the block suits it, or ilu everywhere",
            {"multigrid", "ilu"})
       .otherwise("multigrid");
+  s.integer("fill", "Levels of fill-in of incomplete factorisations")
+      .otherwise("0")
+      .at_least(0)
+      .at_most(5);
   s.number(
        "keep",
        "The preconditioner is kept while iterations stay below this multiple of its first solve's; 0: never")
@@ -60,7 +65,7 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
   if (report.new_factorisation) {
     preconditioner_ = std::make_unique<Preconditioner>();
     preconditioner_->matrix = tpetra_view(a);
-    preconditioner_->apply = make_block_gauss_seidel(preconditioner_->matrix, a, blocks, multigrid_);
+    preconditioner_->apply = make_block_gauss_seidel(preconditioner_->matrix, a, blocks, multigrid_, fill_);
     preconditioner_->pattern_version = a.pattern_version;
   }
   report.setup_seconds = watch.seconds();

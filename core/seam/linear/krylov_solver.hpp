@@ -32,6 +32,7 @@ class KrylovSolver final : public LinearSolver {
   int restart_;
   double keep_;
   bool multigrid_;
+  int fill_;
   std::unique_ptr<Preconditioner> preconditioner_;
 };
 
