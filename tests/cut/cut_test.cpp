@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cut/cut_test.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -61,9 +62,9 @@ bool has_flat_sides(const Mesh& mesh, int cell) {
             Weights{{shape.edges[e][0], 0.5}, {shape.edges[e][1], 0.5}}))
       return false;
   // Parallelograms, which is enough for the meshes here.
-  for (const auto& f : shape.faces)
-    if (f.size() == 4 && off(f[3], Weights{{f[0], 1.0}, {f[1], -1.0}, {f[2], 1.0}})) return false;
-  return true;
+  return std::none_of(shape.faces.begin(), shape.faces.end(), [&](const auto& f) {
+    return f.size() == 4 && off(f[3], Weights{{f[0], 1.0}, {f[1], -1.0}, {f[2], 1.0}});
+  });
 }
 
 /// Adds the fluxes and the weights of a cell's interface and fluid faces.

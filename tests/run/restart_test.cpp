@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/run_command.hpp"
+#include "series.hpp"
 
 using namespace seam_cli_test;
 
@@ -16,37 +17,6 @@ const std::string scene = SEAM_SOURCE_DIR "/configs/solid/swinging_beam.yaml --s
 
 std::string run(const Folder& folder, const std::string& where, const std::string& more = "") {
   return "run " + scene + " --quiet --no-picture --folder " + (folder.path / where).string() + " " + more;
-}
-
-std::vector<std::vector<double>> table(const std::string& csv) {
-  std::istringstream in(csv);
-  std::vector<std::vector<double>> rows;
-  std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    std::string cell;
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
-  }
-  return rows;
-}
-
-/// Largest difference between two series, each column relative to its largest value.
-double difference(const std::string& first, const std::string& second) {
-  const auto a = table(first), b = table(second);
-  REQUIRE(a.size() == b.size());
-  REQUIRE(a.size() > 1);
-  double worst = 0;
-  for (std::size_t column = 0; column < a[0].size(); ++column) {
-    double size = 0, most = 0;
-    for (std::size_t row = 0; row < a.size(); ++row) {
-      size = std::max(size, std::abs(a[row][column]));
-      most = std::max(most, std::abs(a[row][column] - b[row][column]));
-    }
-    if (size > 0) worst = std::max(worst, most / size);
-  }
-  return worst;
 }
 
 }  // namespace

@@ -111,6 +111,7 @@ void replace(const Segment& s, std::vector<LatticePoint>& points, std::vector<Se
 }  // namespace
 
 bool split_at_meetings(std::vector<Segment>& segments) {
+  if (segments.empty()) return false;
   bool any = false;
   std::vector<char> is_new(segments.size(), 1);
   // A split moves a part by less than the lattice's spacing, which can create a further meeting, but no more

@@ -15,8 +15,9 @@ namespace seam {
 enum class CellState : char { fluid, body, cut };
 
 /// Points and weights on a part of a cell. Weights are physical measures: they add up to the part's volume,
-/// or to its area. Those of a volume may be negative and their points may lie inside a body, never outside
-/// the cell's reference coordinates' range.
+/// or to its area. Those of a volume or of a face may be negative and their points may lie inside a body:
+/// they are the Gauss points of the unit square or cube of reference coordinates (of the face, for a face),
+/// on triangles and tetrahedra as well, whose half or five sixths of them then lie outside of the cell.
 struct CutRule {
   std::vector<double> reference;  ///< [point][dimension], in the background cell
   std::vector<double> weight;     ///< [point], m^d or m^(d-1)

@@ -160,6 +160,7 @@ void Simulation::start(const RunOptions& options) {
     state_.time = time_.start;
     state_.step = time_.initial;
     problem_.initialise(time_.start, !time_.is_static);
+    problem_.update_spaces(time_point(time_.start, 0, time_.theta));
     if (!time_.is_static && problem_.needs_initial_rates(time_.theta))
       newton_->solve_initial_rates(time_.start);
   }
