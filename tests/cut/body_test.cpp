@@ -37,7 +37,7 @@ TEST_CASE("the boundary of a mesh encloses the mesh, with its normal outward") {
   grid.cell = cell;
   grid.order = order;
   for (auto& lines : grid.lines) lines = graded_lines(-0.5, 1.0, 3);
-  const Surface surface = boundary_surface(make_grid(grid), {});
+  const Surface surface = body_boundary(make_grid(grid), {}).surface;
   const bool flat = surface.dimension == 2;
   CHECK(enclosed(surface) == Approx(flat ? 2 * 2.25 : 6 * 3.375).epsilon(1e-13));
 }

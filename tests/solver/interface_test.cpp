@@ -66,6 +66,7 @@ struct PlainSetup final : InterfaceSetup {
     degree = polynomial_degree;
   }
   FieldCut& cut(int) override { throw std::logic_error("nothing is cut here"); }
+  std::string displacement(int) override { return ""; }
   std::shared_ptr<const MeshData> mesh(const std::string&) override { return nullptr; }
 };
 

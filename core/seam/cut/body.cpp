@@ -217,7 +217,7 @@ class MeshBody final : public BodyShape {
     return s;
   }
   [[nodiscard]] Surface surface(int, const MeshFinder& meshes) const override {
-    return boundary_surface(*meshes(p_.text("mesh")), p_.names("boundaries"));
+    return body_boundary(*meshes(p_.text("mesh")), p_.names("boundaries")).surface;
   }
 
  private:

@@ -25,8 +25,17 @@ class BodyShape {
 /// Registers "circle", "sphere", "box", "outline" and "mesh".
 void register_bodies(Registry& registry);
 
-/// The outer boundary of a mesh, or the named parts of it, as planar facets.
+/// The boundary of a mesh as planar facets that know where they come from.
+struct BodyBoundary {
+  Surface surface;
+  std::vector<int> node;         ///< [point]: node of the mesh
+  std::vector<CellFace> parent;  ///< [facet]: the face that it is part of
+  std::vector<int> local;        ///< [facet][dimension]: its corners among the nodes of the parent's cell
+};
+
+/// The outer boundary of a mesh, or the named parts of it.
 /// @param boundaries names; empty for all of the boundary
-Surface boundary_surface(const MeshData& mesh, const std::vector<std::string>& boundaries);
+/// @throws Error when a name is unknown
+BodyBoundary body_boundary(const MeshData& mesh, const std::vector<std::string>& boundaries);
 
 }  // namespace seam

@@ -66,7 +66,7 @@ std::vector<std::vector<int>> facets_of(const MeshData& mesh, const CellFace& fa
 
 }  // namespace
 
-Surface boundary_surface(const MeshData& mesh, const std::vector<std::string>& boundaries) {
+BodyBoundary body_boundary(const MeshData& mesh, const std::vector<std::string>& boundaries) {
   std::vector<CellFace> faces;
   for (const std::string& name : boundaries) {
     const auto found = mesh.boundaries.find(name);
@@ -74,21 +74,27 @@ Surface boundary_surface(const MeshData& mesh, const std::vector<std::string>& b
     faces.insert(faces.end(), found->second.begin(), found->second.end());
   }
   if (boundaries.empty()) faces = outer_faces(mesh);
-  Surface surface;
+  BodyBoundary result;
+  Surface& surface = result.surface;
   surface.dimension = mesh.dimension;
   surface.closed = boundaries.empty();
   std::map<int, int> number;  // of a mesh node among the surface's points
   for (const CellFace& face : faces)
-    for (const auto& facet : facets_of(mesh, face))
+    for (const auto& facet : facets_of(mesh, face)) {
+      result.parent.push_back(face);
       for (const int local : facet) {
         const int node = cell_nodes(mesh, face.cell)[local];
         const auto [found, is_new] = number.emplace(node, surface.point_count());
-        if (is_new)
+        if (is_new) {
+          result.node.push_back(node);
           for (int d = 0; d < mesh.dimension; ++d)
             surface.points.push_back(mesh.coordinates[static_cast<std::size_t>(node) * mesh.dimension + d]);
+        }
         surface.facets.push_back(found->second);
+        result.local.push_back(local);
       }
-  return surface;
+    }
+  return result;
 }
 
 }  // namespace seam

@@ -1,84 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/cut_interface.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
-#include "seam/assembly/domains.hpp"
+#include "seam/cut/cut_boundary.hpp"
 
 namespace seam {
 namespace {
-
-/// The part of a body's surface that bounds the field, piece by piece.
-class CutBoundary final : public IntegrationDomain {
- public:
-  CutBoundary(Field& field, int body, int degree) : field_(&field), body_(body), degree_(degree) {}
-  [[nodiscard]] int size() const override { return static_cast<int>(parts_.size()); }
-  [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
-  void fill(int index, Element& element) const override;
-  [[nodiscard]] const int* nodes(int index, int, int block) const override {
-    return field_->blocks()[block].space->cell_nodes(parts_[index].cell);
-  }
-  [[nodiscard]] std::string description() const override {
-    return fmt::format("the boundary of a body in field '{}'", field_->name());
-  }
-  void update(const Field& field) override;
-
- private:
-  void add_part(int cell, const InterfaceRule& rule);
-  struct Part : CutTables {
-    std::vector<double> normal;  ///< [point][dimension]
-  };
-  Field* field_;
-  int body_, degree_;
-  std::vector<Part> parts_;
-};
-
-void CutBoundary::update(const Field& field) {
-  if (&field != field_) return;
-  parts_.clear();
-  if (!field.cut()) return;
-  InterfaceRule rule;
-  for (const int cell : field.cut()->cut_cells()) {
-    if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
-    field.cut()->interface_rule(cell, degree_, rule);
-    add_part(cell, rule);
-  }
-}
-
-void CutBoundary::add_part(int cell, const InterfaceRule& rule) {
-  const auto dim = static_cast<std::size_t>(field_->mesh().dimension());
-  Part part;
-  std::vector<double> reference;
-  for (std::size_t q = 0; q < rule.weight.size(); ++q) {
-    if (rule.body[q] != body_) continue;
-    part.weight.push_back(rule.weight[q]);
-    for (std::size_t d = 0; d < dim; ++d) {
-      reference.push_back(rule.reference[q * dim + d]);
-      part.normal.push_back(rule.normal[q * dim + d]);
-    }
-  }
-  if (part.weight.empty()) return;
-  part.cell = cell;
-  part.fill(*field_, reference, true);
-  parts_.push_back(std::move(part));
-}
-
-void CutBoundary::fill(int index, Element& element) const {
-  const Part& part = parts_[index];
-  element.dimension = field_->mesh().dimension();
-  element.points = static_cast<int>(part.weight.size());
-  element.sides.resize(1);
-  ElementSide& side = element.sides[0];
-  attach_cell(side, *field_, part.cell);
-  part.attach(side);
-  side.map_geometry();
-  element.weight = part.weight;
-  element.normal = part.normal;
-  element.set_sizes(side.diameter,
-                    field_->mesh().volume(part.cell) / field_->cut()->interface_area(part.cell));
-}
 
 /// A rigid motion given as functions of time.
 class Motion {

@@ -28,6 +28,8 @@ class FieldCut {
   bool update(double time);
 
   [[nodiscard]] const CutMesh& mesh() const { return mesh_; }
+  /// True when nodes are active whose states are not known, as after a failed step was rewound. Collective.
+  [[nodiscard]] bool has_new_nodes() const { return !states_match(); }
   /// Per local cell.
   [[nodiscard]] const std::vector<char>& active_cells() const { return active_; }
 

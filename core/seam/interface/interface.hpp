@@ -24,6 +24,8 @@ class InterfaceSetup {
   int degree = 2;  ///< polynomial degree to integrate exactly
   /// The bodies that cut the mesh of a side's field; one can be added.
   [[nodiscard]] virtual FieldCut& cut(int side) = 0;
+  /// Name of the unknown that displaces the mesh of a side's field, "" for none.
+  [[nodiscard]] virtual std::string displacement(int side) = 0;
   /// A mesh of the scene.
   [[nodiscard]] virtual std::shared_ptr<const MeshData> mesh(const std::string& name) = 0;
 };

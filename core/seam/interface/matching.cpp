@@ -10,6 +10,7 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/cut/cut_interface.hpp"
+#include "seam/cut/embedded_interface.hpp"
 #include "seam/interface/remote_cells.hpp"
 
 namespace seam {
@@ -186,6 +187,9 @@ void register_interfaces(Registry& registry) {
   registry.add<Interface>(
       "interface", "cut", CutInterface::schema(),
       [](const Parameters& p, const Registry& types) { return std::make_unique<CutInterface>(p, types); });
+  registry.add<Interface>(
+      "interface", "embedded", EmbeddedInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<EmbeddedInterface>(p); });
 }
 
 }  // namespace seam

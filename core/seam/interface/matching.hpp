@@ -21,7 +21,7 @@ class MatchingInterface final : public Interface {
   Location where_;
 };
 
-/// Registers "matching" and "cut".
+/// Registers "matching", "cut" and "embedded".
 void register_interfaces(Registry& registry);
 
 }  // namespace seam

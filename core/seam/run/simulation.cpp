@@ -112,6 +112,10 @@ class Simulation::Setup final : public InterfaceSetup {
     degree = 2 * order;
   }
   FieldCut& cut(int side) override { return simulation_.problem_.cut(*entries_[side]); }
+  std::string displacement(int side) override {
+    const Physics& physics = *entries_[side]->physics;
+    return physics.support() == Support::mesh ? physics.displacement() : "";
+  }
   std::shared_ptr<const MeshData> mesh(const std::string& name) override {
     return simulation_.meshes_.at(name);
   }

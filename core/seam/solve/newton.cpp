@@ -57,20 +57,17 @@ NewtonReport Newton::solve(const TimePoint& at) {
   Size size;
   for (int iteration = 0;; ++iteration) {
     NewtonIteration& entry = report.history.emplace_back();
-    double factor = 1;
-    if (iteration > 0) {
-      if (!take(at, increment, size, factor)) {
-        report.reason =
-            fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
-        return report;
-      }
+    if (iteration == 0) {
+      entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
+      problem_.assembler().assemble(at, true);
+    } else if (!take(at, increment, size, entry)) {
+      report.reason =
+          fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
+      return report;
     }
-    entry.damping = factor;
-    entry.space_changed = problem_.update_spaces(at);
-    if (iteration == 0 || entry.space_changed) problem_.assembler().assemble(at, true);
     // After a renumbering the increment's rows mean nothing any more.
     if (entry.space_changed) increment.clear();
-    size = measure(increment, factor);
+    size = measure(increment, entry.damping);
     entry.residual = size.residual;
     entry.worst = size.worst;
     entry.increment = size.increment;
@@ -98,20 +95,23 @@ NewtonReport Newton::solve(const TimePoint& at) {
   }
 }
 
-/// Adds the increment, or a part of it, and assembles there. False when no part is admissible.
+/// Adds the increment, or a part of it, lets spaces follow and assembles there. False when no part is
+/// admissible.
 bool Newton::take(const TimePoint& at, const std::vector<double>& increment, const Size& size_before,
-                  double& factor) {
+                  NewtonIteration& entry) {
   constexpr double blow_up = 1e4;
   const Problem::Snapshot before = problem_.snapshot();
-  for (factor = 1; factor > 1e-3; factor /= 2) {
-    problem_.assembler().add_increment(increment, factor);
+  for (entry.damping = 1; entry.damping > 1e-3; entry.damping /= 2) {
+    problem_.assembler().add_increment(increment, entry.damping);
     problem_.update_rates(at);
+    entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
     problem_.assembler().assemble(at, true);
     const double size = measure({}, 0).residual;
     const bool much_larger = size_before.residual > 0 && size > blow_up * size_before.residual && size > 1e-3;
-    if (std::isfinite(size) && !(options_.damping && much_larger && factor > 0.1)) return true;
+    if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
     if (!options_.damping) return false;
     problem_.restore(before);
+    problem_.update_spaces(at);  // and with them the numbering that the increment has
   }
   return false;
 }

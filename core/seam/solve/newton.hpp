@@ -58,7 +58,8 @@ class Newton {
   };
   /// @param increment what was added last, times `factor`; empty at the start of a step
   [[nodiscard]] Size measure(const std::vector<double>& increment, double factor) const;
-  bool take(const TimePoint& at, const std::vector<double>& increment, const Size& before, double& factor);
+  bool take(const TimePoint& at, const std::vector<double>& increment, const Size& before,
+            NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
   Problem& problem_;
   LinearSolver& solver_;

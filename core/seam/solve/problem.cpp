@@ -183,22 +183,27 @@ void Problem::update_rates(const TimePoint& at) {
       }
 }
 
-bool Problem::update_cuts(const TimePoint& at) {
-  bool changed = false;
+SpaceChange Problem::update_cuts(const TimePoint& at) {
+  SpaceChange change = SpaceChange::none;
   for (FieldEntry& entry : fields_) {
-    if (!entry.cut || !entry.cut->update(at.time)) continue;
+    if (!entry.cut) continue;
+    const std::vector<char> before = entry.field->active_cells();
+    const bool was_known = !entry.cut->has_new_nodes();
+    if (!entry.cut->update(at.time)) continue;
+    const bool same = was_known && before == entry.cut->active_cells();
     occupy(entry, entry.cut->active_cells(), &entry.cut->mesh());
-    changed = true;
+    change = std::max(change, communicator_.any(!same) ? SpaceChange::unknowns : SpaceChange::geometry);
   }
-  if (changed) update_rates(at);
-  return changed;
+  if (change != SpaceChange::none) update_rates(at);
+  return change;
 }
 
-bool Problem::update_spaces(const TimePoint& at) {
-  bool changed = update_cuts(at);
-  for (const SpaceUpdate& update : space_updates_) changed |= update(at);
-  if (changed) assembler_->rebuild();
-  return changed;
+SpaceChange Problem::update_spaces(const TimePoint& at) {
+  SpaceChange change = update_cuts(at);
+  for (const SpaceUpdate& update : space_updates_)
+    if (update(at)) change = SpaceChange::unknowns;
+  if (change != SpaceChange::none) assembler_->rebuild();
+  return change;
 }
 
 Problem::Snapshot Problem::snapshot() const {

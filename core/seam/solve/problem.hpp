@@ -61,6 +61,13 @@ struct FieldEntry {
   std::vector<FieldQuantity> outputs, integrals;
 };
 
+/// What happened to the spaces of a problem.
+enum class SpaceChange {
+  none,
+  geometry,  ///< elements or their points moved; unknowns and their numbers stayed
+  unknowns   ///< unknowns came or went, or their numbers changed
+};
+
 /// All fields and terms of a scene as one nonlinear system, and the states they are in.
 class Problem {
  public:
@@ -125,9 +132,9 @@ class Problem {
   void begin_step(const TimePoint& at);
   /// Lets rates follow the values as the time scheme says.
   void update_rates(const TimePoint& at);
-  /// Cuts meshes anew, runs the space updates and rebuilds where needed; returns whether it did. Collective.
+  /// Cuts meshes anew, runs the space updates and rebuilds where needed. Collective.
   /// @throws StepRefused when a body moved further than states can be carried
-  bool update_spaces(const TimePoint& at);
+  SpaceChange update_spaces(const TimePoint& at);
 
   /// All states of all fields; what a failed step is rewound to.
   struct BlockSnapshot {
@@ -140,7 +147,7 @@ class Problem {
 
  private:
   void set_prescribed(double time);
-  bool update_cuts(const TimePoint& at);
+  SpaceChange update_cuts(const TimePoint& at);
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;

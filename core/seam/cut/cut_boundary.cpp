@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/cut/cut_boundary.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace seam {
+
+void CutBoundary::update(const Field& field) {
+  if (&field != field_) return;
+  pieces_.clear();
+  if (!field.cut()) return;
+  InterfaceRule rule;
+  for (const int cell : field.cut()->cut_cells()) {
+    if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
+    field.cut()->interface_rule(cell, degree_, rule);
+    add_pieces(cell, rule);
+  }
+}
+
+void CutBoundary::add_pieces(int cell, const InterfaceRule& rule) {
+  const auto dim = static_cast<std::size_t>(field_->mesh().dimension());
+  std::map<int, std::vector<int>> points;  // by group
+  for (int q = 0; q < rule.count(); ++q)
+    if (rule.body[q] == body_) points[group(rule.facet[q])].push_back(q);
+  for (const auto& [group, of_group] : points) {
+    Piece& piece = pieces_.emplace_back();
+    piece.cell = cell;
+    piece.group = group;
+    std::vector<double> reference;
+    for (const int q : of_group) {
+      piece.weight.push_back(rule.weight[q]);
+      const std::size_t at = static_cast<std::size_t>(q) * dim;
+      for (std::size_t d = 0; d < dim; ++d) {
+        reference.push_back(rule.reference[at + d]);
+        piece.normal.push_back(rule.normal[at + d]);
+      }
+    }
+    piece.fill(*field_, reference, true);
+    add_partner(piece, rule, of_group);
+  }
+}
+
+void CutBoundary::fill(int index, Element& element) const {
+  const Piece& piece = pieces_[index];
+  element.dimension = field_->mesh().dimension();
+  element.points = static_cast<int>(piece.weight.size());
+  element.sides.resize(1);
+  ElementSide& side = element.sides[0];
+  attach_cell(side, *field_, piece.cell);
+  piece.attach(side);
+  side.map_geometry();
+  element.weight = piece.weight;
+  element.normal = piece.normal;
+  element.set_sizes(side.diameter,
+                    field_->mesh().volume(piece.cell) / field_->cut()->interface_area(piece.cell));
+}
+
+const int* CutBoundary::nodes(int index, int, int block) const {
+  return field_->blocks()[block].space->cell_nodes(pieces_[index].cell);
+}
+
+std::string CutBoundary::description() const {
+  return fmt::format("the boundary of a body in field '{}'", field_->name());
+}
+
+}  // namespace seam

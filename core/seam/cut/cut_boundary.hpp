@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/cut/cut_mesh.hpp"
+#include "seam/interface/remote_cells.hpp"
+
+namespace seam {
+
+/// The part of a body's surface that bounds a field whose mesh it cuts, piece by piece. Side 0 is that field.
+class CutBoundary : public IntegrationDomain {
+ public:
+  /// @param body its number in the field's FieldCut
+  CutBoundary(Field& field, int body, int degree) : field_(&field), body_(body), degree_(degree) {}
+  [[nodiscard]] int size() const override { return static_cast<int>(pieces_.size()); }
+  [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
+  void fill(int index, Element& element) const override;
+  [[nodiscard]] const int* nodes(int index, int side, int block) const override;
+  [[nodiscard]] std::string description() const override;
+  void update(const Field& field) override;
+
+ protected:
+  /// All points in one cell that share a group.
+  struct Piece : CutTables {
+    int group = 0;
+    std::vector<double> normal;  ///< [point][dimension], out of the field
+    CutTables partner;           ///< of side 1
+  };
+  /// Points of facets of different groups belong to different elements.
+  [[nodiscard]] virtual int group(int facet) const {
+    (void)facet;
+    return 0;
+  }
+  /// Sets up side 1 of a piece. @param points of the rule that belong to it
+  virtual void add_partner(Piece& piece, const InterfaceRule& rule, const std::vector<int>& points) const {
+    (void)piece, (void)rule, (void)points;
+  }
+  [[nodiscard]] const Piece& piece(int index) const { return pieces_[index]; }
+
+ private:
+  void add_pieces(int cell, const InterfaceRule& rule);
+  Field* field_;
+  int body_, degree_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace seam

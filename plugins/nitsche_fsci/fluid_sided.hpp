@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+#include "seam/term/kernel_term.hpp"
+
+/// Coupling of a fluid (side 0) with a deforming body (side 1) by Nitsche's method.
+namespace seam::fsci {
+
+using Velocity = Vector<0>;
+using Pressure = Scalar<1>;
+using Displacement = Vector<2>;
+
+/// What the coupling needs to know of the fluid.
+struct Flow {
+  double density;      ///< kg/m^3
+  double viscosity;    ///< dynamic, Pa s
+  bool convection;     ///< false: Stokes flow
+};
+
+/// The traction between fluid and body is the fluid's (thesis (3.26), (3.27); with Navier slip in the manner of
+/// (4.5)). With n out of the fluid, J = v - du/dt, P = I - n n^T, Phi = h_Gamma phi of (3.27), lambda =
+/// slip_length/mu and beta = h_Gamma/(gamma_t Phi):
+///
+///   <dv - du, t - sigma n + gamma_n Phi/h_Gamma (J.n) n> - <dp, J.n>
+///   + xi <2 mu eps(dv) n, (J.n) n + beta t>,   t = [P J + lambda P sigma n] / (lambda + beta).
+///
+/// slip_length 0 is no slip: t = gamma_t Phi/h_Gamma P J, the form of (3.26). At xi = +1 the viscous adjoint
+/// term cancels the consistency term: stable for every penalty.
+struct FluidSided {
+  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Displacement>>;
+  using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>>;
+  Flow flow;
+  double slip_length;  ///< m, may be infinite
+  double adjoint;      ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
+  double normal_penalty, tangential_penalty;
+
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Vec<dim, double>& n = x.normal;
+    const Vec<dim, T> velocity = s.value(Velocity{});
+    const Vec<dim, T> jump = velocity - s.rate(Displacement{});
+    const T gap = dot(jump, n);
+    Vec<dim, T> force = ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n;
+    force -= s.value(Pressure{}) * n;
+
+    const T phi = resistance<dim, T>(x, velocity);
+    const T beta = x.trace_size / (tangential_penalty * phi);
+    const T sum = slip_length / flow.viscosity + beta;
+    const Vec<dim, T> along = (1.0 / sum) * (jump - gap * n);
+    // 1 - beta/(lambda + beta) instead of lambda/(lambda + beta): no 0/0 at infinite slip.
+    const Vec<dim, T> friction = (1.0 - beta / sum) * (force - dot(force, n) * n);
+    const Vec<dim, T> t = along + friction;
+    const Vec<dim, T> traction = t - force + ((normal_penalty / x.trace_size) * phi * gap) * n;
+
+    r.value(Velocity{}) += traction;
+    r.value(Displacement{}) -= traction;
+    r.value(Pressure{}) -= gap;
+    if (adjoint == 0) return;
+    r.gradient(Velocity{}) += (2 * adjoint * flow.viscosity) * sym(outer(beta * t + gap * n, n));
+  }
+
+ private:
+  /// Phi: mu + h c_v rho |v| + h^2 c_t rho/(theta dt), Pa s. |v| falls to zero smoothly below a tenth of the
+  /// speed at which convection matters: with its kink Newton's method would limp wherever the fluid rests.
+  template <int dim, class T>
+  T resistance(const Point<dim>& x, const Vec<dim, T>& velocity) const {
+    using std::sqrt;
+    constexpr double c_v = 1.0 / 6, c_t = 1.0 / 12;
+    const double h = x.trace_size;
+    T phi = T(flow.viscosity + (x.step > 0 ? h * h * c_t * flow.density / (x.theta * x.step) : 0.0));
+    if (!flow.convection) return phi;
+    const double slow = 0.1 * flow.viscosity / (flow.density * h);
+    const T square = dot(velocity, velocity);
+    return phi + (h * c_v * flow.density) * (square / sqrt(square + slow * slow));
+  }
+};
+
+}  // namespace seam::fsci

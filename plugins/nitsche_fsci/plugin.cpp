@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/plugin/plugin.hpp"
+
+#include "fsi.hpp"
+
+SEAM_PLUGIN(registry) { seam::fsci::declare_fsi(registry); }
