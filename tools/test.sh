@@ -6,7 +6,8 @@
 #
 # build     compile, warnings are errors
 # fast      unit, property and command line tests
-# scenes    every scene of configs/ against its own checks
+# scenes    every scene of configs/ against its own checks, but for those of the nightly tier
+# nightly   the scenes of the nightly tier: long runs, not part of `all`
 # install   plugins built out of tree against an installed Seam
 # sanitize  the fast tests with address and undefined behaviour sanitizers
 # fuzz      the readers of scenes and meshes, 60 s each
@@ -77,8 +78,20 @@ stage_fast() { run_ctest "$seam_build" --label-exclude 'slow|install'; }
 stage_install() { run_ctest "$seam_build" --label-regex install; }
 
 stage_scenes() {
-  local log=$seam_build/scenes.log scenes
-  mapfile -t scenes < <(find "$seam_root/configs" -name '*.yaml' | sort)
+  local scenes
+  mapfile -t scenes < <(find "$seam_root/configs" -name '*.yaml' -exec grep -L '^tier: nightly' {} + | sort)
+  verify_scenes "${scenes[@]}"
+}
+
+stage_nightly() {
+  local scenes
+  mapfile -t scenes < <(find "$seam_root/configs" -name '*.yaml' -exec grep -l '^tier: nightly' {} + | sort)
+  verify_scenes "${scenes[@]}"
+}
+
+# verify_scenes SCENE...: runs scenes and compares them with their checks.
+verify_scenes() {
+  local log=$seam_build/scenes.log scenes=("$@")
   mkdir -p "$seam_build/scenes"
   (cd "$seam_build/scenes" && "$seam_build/bin/seam" verify "${scenes[@]}" --quiet) >"$log" 2>&1
   local code=$? numbers

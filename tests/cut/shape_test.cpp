@@ -28,12 +28,34 @@ double enclosed(const FluidShape& shape, int dimension) {
   return sum;
 }
 
+/// Sum of the simplices' volumes; none of them may be turned inside out.
+double add_up(const std::vector<double>& corners, int dimension, double cell_volume) {
+  const int stride = dimension * (dimension + 1);
+  double sum = 0;
+  for (std::size_t s = 0; s < corners.size(); s += stride) {
+    double e[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+    for (int k = 0; k < dimension; ++k)
+      for (int d = 0; d < dimension; ++d) e[k][d] = corners[s + (k + 1) * dimension + d] - corners[s + d];
+    const double volume = (e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                           e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                           e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
+                          (dimension == 2 ? 2 : 6);
+    CHECK(volume > -1e-13 * cell_volume);
+    sum += volume;
+  }
+  return sum;
+}
+
 void check_shapes(const CutMesh& cut) {
   FluidShape shape;
+  std::vector<double> simplices;
   for (const int c : cut.cut_cells()) {
     cut.fluid_shape(c, shape);
     CHECK(enclosed(shape, cut.mesh().dimension()) ==
           Approx(cut.fluid_volume(c)).margin(1e-12 * cut.cell_volume(c)));
+    cut.fluid_simplices(c, simplices);
+    CHECK(add_up(simplices, cut.mesh().dimension(), cut.cell_volume(c)) ==
+          Approx(cut.fluid_volume(c)).margin(1e-11 * cut.cell_volume(c)));
   }
 }
 

@@ -2,9 +2,12 @@
 #include "load.hpp"
 
 #include <fmt/format.h>
+#include <vtkAppendFilter.h>
 #include <vtkCellData.h>
+#include <vtkCutter.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
+#include <vtkPlane.h>
 #include <vtkPointData.h>
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -112,11 +115,40 @@ void displace(Body& body, const std::string& file, const Options& options) {
   body.current->SetPoints(points);
 }
 
+/// A spatial result becomes what it is at half its height, its vectors what they are along that plane.
+void slice(vtkSmartPointer<vtkUnstructuredGrid>& grid) {
+  double bounds[6];
+  grid->GetBounds(bounds);
+  if (bounds[5] - bounds[4] <= 0) return;
+  vtkNew<vtkPlane> plane;
+  plane->SetOrigin(0, 0, 0.5 * (bounds[4] + bounds[5]));
+  plane->SetNormal(0, 0, 1);
+  vtkNew<vtkCutter> cutter;
+  cutter->SetInputData(grid);
+  cutter->SetCutFunction(plane);
+  vtkNew<vtkAppendFilter> converter;
+  converter->AddInputConnection(cutter->GetOutputPort());
+  converter->Update();
+  grid = converter->GetOutput();
+  for (vtkIdType i = 0; i < grid->GetNumberOfPoints(); ++i) {
+    double x[3];
+    grid->GetPoint(i, x);
+    grid->GetPoints()->SetPoint(i, x[0], x[1], 0);
+  }
+  grid->GetPoints()->Modified();
+  for (int a = 0; a < grid->GetPointData()->GetNumberOfArrays(); ++a) {
+    vtkDataArray* array = grid->GetPointData()->GetArray(a);
+    for (vtkIdType i = 0; array->GetNumberOfComponents() == 3 && i < array->GetNumberOfTuples(); ++i)
+      array->SetComponent(i, 2, 0);
+  }
+}
+
 }  // namespace
 
 Body load_body(const std::string& file, const Options& options) {
   Body body;
   body.reference = read(file);
+  if (options.streamlines > 0) slice(body.reference);
   body.current = vtkSmartPointer<vtkUnstructuredGrid>::New();
   body.current->ShallowCopy(body.reference);
   if (!options.array.empty()) colour(body, file, options);

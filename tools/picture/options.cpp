@@ -20,6 +20,12 @@ std::optional<int> parse_options(int argc, char** argv, Options& o) {
   app.add_option("-t,--title", o.title, "line above the picture");
   app.add_option("-w,--width", o.width, "width in pixels (default: 1200)")->check(CLI::Range(200, 10000));
   app.add_option("--range", o.range, "lowest and highest value of the colours")->expected(2);
+  app.add_option(
+         "--streamlines", o.streamlines,
+         "draw streamlines, so dense that this many fit into the shorter side; of spatial results on a "
+         "slice through the middle")
+      ->check(CLI::Range(1, 1000));
+  app.add_option("--along", o.along, "vector array the streamlines follow (default: that of the colour)");
   const std::map<std::string, Edges> edges = {
       {"auto", Edges::automatic}, {"on", Edges::on}, {"off", Edges::off}};
   std::string edge_word = "auto";

@@ -20,6 +20,8 @@ struct Options {
   std::string title;
   int width = 1200;  ///< pixels; the height follows from the shape of the bodies
   Edges edges = Edges::automatic;
+  int streamlines = 0;        ///< that fit side by side into the shorter side of the picture; 0 for none
+  std::string along;          ///< vector array they follow; "" for the array that gives the colour
   std::vector<double> range;  ///< of the colours; empty for that of the values
 };
 

@@ -25,6 +25,7 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "shapes.hpp"
+#include "streamlines.hpp"
 
 namespace seam::picture {
 
@@ -188,6 +189,22 @@ void add_surface(vtkRenderer* renderer, const Body& body, vtkLookupTable* colour
   renderer->AddActor(actor);
 }
 
+/// The array that streamlines follow, on one body.
+std::string followed(const Body& body, const Options& options) {
+  const std::string& name = options.along.empty() ? options.array : options.along;
+  vtkDataArray* array = body.current->GetPointData()->GetArray(name.c_str());
+  if (!array || array->GetNumberOfComponents() != 3)
+    throw Error(
+        fmt::format("streamlines follow a vector at the points; '{}' is none; name one with --along", name));
+  return name;
+}
+
+void add_streamlines(vtkRenderer* renderer, const Body& body, const View& view, const Options& options,
+                     double width) {
+  const double distance = std::min(view.width(), view.height()) / options.streamlines;
+  add_lines(renderer, streamlines_of(body.current, followed(body, options), distance), 0.0, width);
+}
+
 void style(vtkTextProperty* text, int size) {
   text->SetFontFamilyToArial();
   text->SetFontSize(size);
@@ -284,6 +301,7 @@ void render(const std::vector<Body>& bodies, const Options& options) {
     add_surface(renderer, b, colours, range.data(), view.plane);
     if (edges) add_lines(renderer, edges_of(b.current), 0.25, 0.7 * line);
     add_lines(renderer, outline_of(b.current), 0.1, 1.4 * line);
+    if (options.streamlines > 0) add_streamlines(renderer, b, view, options, line);
     if (!options.deform.empty()) add_lines(renderer, outline_of(b.reference), 0.55, 1.2 * line);
   }
   if (coloured) add_bar(renderer, colours, range.data(), layout, options);

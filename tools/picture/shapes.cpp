@@ -3,6 +3,7 @@
 
 #include <vtkCell.h>
 #include <vtkCellArray.h>
+#include <vtkCellData.h>
 #include <vtkDataSetSurfaceFilter.h>
 #include <vtkFeatureEdges.h>
 #include <vtkIdList.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 
 namespace seam::picture {
@@ -20,6 +22,25 @@ namespace {
 /// Both surfaces and lines of curved cells are cut into this many pieces per edge.
 constexpr int pieces = 8, subdivision_level = 3;
 static_assert(pieces == 1 << subdivision_level);
+
+using Edge = std::pair<vtkIdType, vtkIdType>;
+
+/// Edges between parts of one and the same cell of the mesh, which the array "cell" of a cut field tells.
+std::set<Edge> edges_within_cells(vtkUnstructuredGrid* grid) {
+  std::set<Edge> within;
+  vtkDataArray* cell_of = grid->GetCellData()->GetArray("cell");
+  std::map<Edge, double> first;
+  for (vtkIdType c = 0; cell_of && c < grid->GetNumberOfCells(); ++c) {
+    vtkCell* cell = grid->GetCell(c);
+    for (int e = 0; e < cell->GetNumberOfEdges(); ++e) {
+      vtkIdList* ends = cell->GetEdge(e)->GetPointIds();
+      const Edge edge = std::minmax(ends->GetId(0), ends->GetId(1));
+      const auto [found, is_new] = first.try_emplace(edge, cell_of->GetTuple1(c));
+      if (!is_new && found->second == cell_of->GetTuple1(c)) within.insert(edge);
+    }
+  }
+  return within;
+}
 
 }  // namespace
 
@@ -34,7 +55,7 @@ vtkSmartPointer<vtkPolyData> surface_of(vtkUnstructuredGrid* grid) {
 vtkSmartPointer<vtkPolyData> edges_of(vtkUnstructuredGrid* grid) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
-  std::set<std::pair<vtkIdType, vtkIdType>> done;
+  std::set<Edge> done = edges_within_cells(grid);
   for (vtkIdType c = 0; c < grid->GetNumberOfCells(); ++c) {
     vtkCell* cell = grid->GetCell(c);
     for (int e = 0; e < cell->GetNumberOfEdges(); ++e) {

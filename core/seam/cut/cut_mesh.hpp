@@ -75,6 +75,10 @@ class CutMesh {
 
   /// For pictures. The cell must be cut.
   void fluid_shape(int cell, FluidShape& shape) const;
+  /// For pictures: triangles or tetrahedra of which the fluid part of a cut cell consists, positively
+  /// oriented. In the plane they are as fine as the outline and share its points with neighbours.
+  /// @param corners [simplex][dimension + 1][dimension], m
+  void fluid_simplices(int cell, std::vector<double>& corners) const;
 
   /// Collective.
   [[nodiscard]] FluidParts find_parts() const;

@@ -8,6 +8,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -59,11 +60,29 @@ void add_array(vtkFieldData* to, const VtuArray& array, std::size_t tuples) {
   to->AddArray(values);
 }
 
+/// Adds cells of `nodes` points each, all of one type.
+void add_cells(const std::vector<int>& connectivity, int nodes, int type, std::size_t point_count,
+               vtkCellArray* cells, vtkUnsignedCharArray* types) {
+  if (connectivity.size() % nodes)
+    throw std::logic_error("seam::write_vtu: the connectivity is not whole tuples");
+  for (std::size_t at = 0; at < connectivity.size(); at += nodes) {
+    cells->InsertNextCell(nodes);
+    types->InsertNextValue(static_cast<unsigned char>(type));
+    for (int a = 0; a < nodes; ++a) {
+      const int point = connectivity[at + a];
+      if (point < 0 || static_cast<std::size_t>(point) >= point_count)
+        throw std::logic_error(
+            fmt::format("seam::write_vtu: a cell names point {} of {}", point, point_count));
+      cells->InsertCellPoint(point);
+    }
+  }
+}
+
 vtkNew<vtkUnstructuredGrid> make_grid(const VtuPiece& piece) {
-  const int dim = piece.dimension, nodes = topology(piece.type).nodes(piece.order);
-  if (dim < 2 || dim > 3 || piece.points.size() % dim || piece.connectivity.size() % nodes)
-    throw std::logic_error("seam::write_vtu: points or connectivity are not whole tuples");
-  const std::size_t point_count = piece.points.size() / dim, cell_count = piece.connectivity.size() / nodes;
+  const int dim = piece.dimension;
+  if (dim < 2 || dim > 3 || piece.points.size() % dim)
+    throw std::logic_error("seam::write_vtu: the points are not whole tuples");
+  const std::size_t point_count = piece.points.size() / dim;
 
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -73,20 +92,14 @@ vtkNew<vtkUnstructuredGrid> make_grid(const VtuPiece& piece) {
     points->SetPoint(static_cast<vtkIdType>(p), x[0], x[1], dim == 3 ? x[2] : 0.0);
   }
   vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(cell_count), static_cast<vtkIdType>(piece.connectivity.size()));
-  for (std::size_t at = 0; at < piece.connectivity.size(); at += nodes) {
-    cells->InsertNextCell(nodes);
-    for (int a = 0; a < nodes; ++a) {
-      const int point = piece.connectivity[at + a];
-      if (point < 0 || static_cast<std::size_t>(point) >= point_count)
-        throw std::logic_error(
-            fmt::format("seam::write_vtu: a cell names point {} of {}", point, point_count));
-      cells->InsertCellPoint(point);
-    }
-  }
+  vtkNew<vtkUnsignedCharArray> types;
+  add_cells(piece.connectivity, topology(piece.type).nodes(piece.order), vtk_type(piece.type, piece.order),
+            point_count, cells, types);
+  add_cells(piece.simplices, dim + 1, dim == 2 ? VTK_TRIANGLE : VTK_TETRA, point_count, cells, types);
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(points);
-  grid->SetCells(vtk_type(piece.type, piece.order), cells);
+  grid->SetCells(types, cells);
+  const auto cell_count = static_cast<std::size_t>(cells->GetNumberOfCells());
   for (const auto& array : piece.point_arrays) add_array(grid->GetPointData(), array, point_count);
   for (const auto& array : piece.cell_arrays) add_array(grid->GetCellData(), array, cell_count);
   return grid;

@@ -16,15 +16,16 @@ struct VtuArray {
   std::vector<std::string> component_names = {};  ///< shown by ParaView; empty, or one per component
 };
 
-/// What one process writes at one time: cells of one type and order.
+/// What one process writes at one time: cells of one type and order, and parts of cells beside them.
 struct VtuPiece {
   int dimension = 2;  ///< coordinates per point: 2 or 3
   CellType type = CellType::quadrilateral;
   int order = 1;
   std::vector<double> points;
   std::vector<int> connectivity;  ///< topology(type).nodes(order) per cell, ordered as CellTopology says
+  std::vector<int> simplices;     ///< dimension + 1 points per linear triangle or tetrahedron
   std::vector<VtuArray> point_arrays;
-  std::vector<VtuArray> cell_arrays;
+  std::vector<VtuArray> cell_arrays;  ///< of the cells, then of the simplices
 };
 
 /// Writes a .vtu file (binary, compressed). Vectors of two components get a third one of 0, as ParaView

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "seam/output/vtu.hpp"
+#include "seam/run/clipped_cells.hpp"
 #include "seam/run/evaluate.hpp"
 
 namespace seam {
@@ -18,9 +19,9 @@ const Space* finest_space(const FieldEntry& entry) {
   return finest;
 }
 
-/// Cells and nodes of a space; the piece holds the active cells this rank owns.
-/// @param active per local cell; empty when all are
-VtuPiece piece_of(const Space& space, const std::vector<char>& active) {
+/// Cells and nodes of a space; the piece holds the cells this rank owns.
+/// @param shown per local cell; empty when all are
+VtuPiece piece_of(const Space& space, const std::vector<char>& shown) {
   const Mesh& mesh = space.mesh();
   VtuPiece piece;
   piece.dimension = mesh.dimension();
@@ -29,22 +30,70 @@ VtuPiece piece_of(const Space& space, const std::vector<char>& active) {
   for (int n = 0; n < space.nodes(); ++n)
     piece.points.insert(piece.points.end(), space.position(n), space.position(n) + piece.dimension);
   for (int c = 0; c < mesh.owned_cells(); ++c)
-    if (active.empty() || active[c])
+    if (shown.empty() || shown[c])
       piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c),
                                 space.cell_nodes(c) + space.nodes_per_cell());
   return piece;
 }
 
-void add_quantities(const FieldEntry& entry, const Space& space, const TimePoint& at, VtuPiece& piece) {
+void add_quantities(const FieldEntry& entry, const Space& space, const TimePoint& at,
+                    const ClippedCells* clipped, VtuPiece& piece) {
   std::vector<std::string> names;
   for (const Unknown& unknown : entry.field->unknowns()) names.push_back(unknown.name);
   for (const FieldQuantity& output : entry.outputs) names.push_back(output.name);
   for (const std::string& name : names) {
     const NamedQuantity quantity = find_quantity(entry, name);
     VtuArray array{name, quantity.components, nodal_values(entry, space, quantity, at), {}};
+    if (clipped) clipped->append_values(quantity.components, array.values);
     if (quantity.components == 6) array.component_names = {"xx", "yy", "zz", "xy", "yz", "xz"};
     piece.point_arrays.push_back(std::move(array));
   }
+}
+
+/// Nodes of bodies and of other ranks would be points of no cell, with values that mean nothing.
+void leave_out_unused_points(VtuPiece& piece) {
+  const std::size_t dim = piece.dimension, count = piece.points.size() / dim;
+  std::vector<int> number(count, -1);
+  for (auto* list : {&piece.connectivity, &piece.simplices})
+    for (const int point : *list) number[point] = 0;
+  int used = 0;
+  for (int& n : number)
+    if (n == 0) n = used++;
+  for (auto* list : {&piece.connectivity, &piece.simplices})
+    for (int& point : *list) point = number[point];
+  const auto keep = [&](std::vector<double>& values, std::size_t components) {
+    for (std::size_t p = 0; p < count; ++p)
+      if (number[p] >= 0) std::copy_n(&values[p * components], components, &values[number[p] * components]);
+    values.resize(used * components);
+  };
+  keep(piece.points, dim);
+  for (VtuArray& array : piece.point_arrays) keep(array.values, array.components);
+}
+
+/// The active cells: whole ones, and the fluid parts of cut ones. The array "cell" tells which parts belong
+/// together.
+VtuPiece field_piece(const FieldEntry& entry, const Space& space, const TimePoint& at) {
+  const Field& field = *entry.field;
+  if (!field.cut()) {
+    VtuPiece piece = piece_of(space, field.active_cells());
+    add_quantities(entry, space, at, nullptr, piece);
+    return piece;
+  }
+  const Mesh& mesh = field.mesh();
+  const ClippedCells clipped(space, *field.cut(), field.active_cells());
+  std::vector<char> whole = field.active_cells();
+  for (const int c : field.cut()->cut_cells()) whole[c] = 0;
+  VtuPiece piece = piece_of(space, whole);
+  piece.points.insert(piece.points.end(), clipped.points.begin(), clipped.points.end());
+  piece.simplices = clipped.simplices;
+  add_quantities(entry, space, at, &clipped, piece);
+  VtuArray background{"cell", 1, {}, {}};
+  for (int c = 0; c < mesh.owned_cells(); ++c)
+    if (whole[c]) background.values.push_back(mesh.global_cell(c));
+  for (const int c : clipped.background) background.values.push_back(mesh.global_cell(c));
+  piece.cell_arrays.push_back(std::move(background));
+  leave_out_unused_points(piece);
+  return piece;
 }
 
 /// A rigid body is shown by its mesh, moved as its point says.
@@ -91,10 +140,9 @@ void FieldOutput::write(long step_number, const TimePoint& at) {
     const Space* space = finest_space(entry);
     std::unique_ptr<Space> shape;
     if (rigid || !space) shape = std::make_unique<Space>(*entry.shape, entry.shape->order());
-    VtuPiece piece = rigid   ? rigid_piece(entry, *shape)
-                     : space ? piece_of(*space, entry.field->active_cells())
-                             : piece_of(*shape, {});
-    if (!rigid && space) add_quantities(entry, *space, at, piece);
+    const VtuPiece piece = rigid   ? rigid_piece(entry, *shape)
+                           : space ? field_piece(entry, *space, at)
+                                   : piece_of(*shape, {});
     const std::string stem = fmt::format("{}-{:06}", entry.name, step_number);
     const auto piece_name = [&](int rank) { return fmt::format("{}-r{}.vtu", stem, rank); };
     const std::filesystem::path fields = folder_ / "fields";

@@ -8,7 +8,8 @@
 
 namespace seam {
 
-/// Writes the fields of a problem as VTU pieces with one PVD time series per field.
+/// Writes the fields of a problem as VTU pieces with one PVD time series per field. Where bodies cut a field,
+/// only its own part of a cell is written: as linear triangles or tetrahedra, whatever the field's order.
 class FieldOutput {
  public:
   /// @param resume_time keep what existing series hold up to this time; negative: start afresh

@@ -173,6 +173,8 @@ Schema scene_schema() {
   Schema schema("A scene: meshes, fields on them, interfaces between fields, and what happens there.");
   schema.text("title", "what the scene shows");
   schema.text("source", "where it comes from: a paper, a benchmark").optional();
+  schema.choice("tier", "when the tests run it: always, or at night because it takes long", {"fast", "nightly"})
+      .otherwise("fast");
   schema.integer("dimension", "of space").at_least(2).at_most(3);
   schema.names("plugins", "plugins to load").naming("plugin").otherwise("[]");
   schema.names("plugin_folders", "further folders with plugins, relative to the scene").otherwise("[]");
