@@ -14,13 +14,13 @@ using Displacement = Vector<2>;
 
 /// What the coupling needs to know of the fluid.
 struct Flow {
-  double density;      ///< kg/m^3
-  double viscosity;    ///< dynamic, Pa s
-  bool convection;     ///< false: Stokes flow
+  double density;    ///< kg/m^3
+  double viscosity;  ///< dynamic, Pa s
+  bool convection;   ///< false: Stokes flow
 };
 
-/// The traction between fluid and body is the fluid's (thesis (3.26), (3.27); with Navier slip in the manner of
-/// (4.5)). With n out of the fluid, J = v - du/dt, P = I - n n^T, Phi = h_Gamma phi of (3.27), lambda =
+/// The traction between fluid and body is the fluid's (thesis (3.26), (3.27); with Navier slip in the manner
+/// of (4.5)). With n out of the fluid, J = v - du/dt, P = I - n n^T, Phi = h_Gamma phi of (3.27), lambda =
 /// slip_length/mu and beta = h_Gamma/(gamma_t Phi):
 ///
 ///   <dv - du, t - sigma n + gamma_n Phi/h_Gamma (J.n) n> - <dp, J.n>

@@ -52,9 +52,8 @@ class Fsi final : public Coupling {
 }  // namespace
 
 void declare_fsi(Registry& registry) {
-  registry.add<Coupling>("coupling", "fsi", Fsi::schema(), [](const Parameters& p, const Registry&) {
-    return std::make_unique<Fsi>(p);
-  });
+  registry.add<Coupling>("coupling", "fsi", Fsi::schema(),
+                         [](const Parameters& p, const Registry&) { return std::make_unique<Fsi>(p); });
 }
 
 }  // namespace seam::fsci

@@ -28,7 +28,7 @@ MeshData box(CellType type, int order) {
 }
 
 VtuPiece piece_of(const MeshData& m) {
-  VtuPiece piece{m.dimension, m.type, m.order, m.coordinates, m.cells, {}, {}};
+  VtuPiece piece{m.dimension, m.type, m.order, m.coordinates, m.cells, {}, {}, {}};
   piece.point_arrays.push_back({"displacement", m.dimension, m.coordinates, {"x", "y"}});
   VtuArray region{"region", 1, std::vector<double>(m.cell_count(), 4)};
   region.values[0] = 7;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A body that moves through the mesh of a fluid: nothing may depend on how the run was cut into pieces, on the
-// number of ranks, or on factorisations that were kept.
+// A body that moves through the mesh of a fluid: nothing may depend on how the run was cut into pieces, on
+// the number of ranks, or on factorisations that were kept.
 #include "cli/run_command.hpp"
 #include "series.hpp"
 
@@ -39,7 +39,9 @@ TEST_CASE("factorisations kept over changing spaces lead to the same flow") {
 
 TEST_CASE("a step that uncovers more than a layer of cells is halved") {
   const Folder folder;
-  REQUIRE(seam(run(folder, "long", "--set time.step.initial=0.6 --set meshes.channel.grid.cells=[60,30]")).code == 0);
+  REQUIRE(
+      seam(run(folder, "long", "--set time.step.initial=0.6 --set meshes.channel.grid.cells=[60,30]")).code ==
+      0);
   const auto rows = table(series(folder, "long"));
   CHECK(rows.size() > 3);
   CHECK(rows.back()[0] == 0.6);

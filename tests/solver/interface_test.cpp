@@ -93,6 +93,7 @@ Parameters krylov(const std::string& preconditioner) {
   p.set("maximum_iterations", {200L, {}, {}, true});
   p.set("restart", {100L, {}, {}, true});
   p.set("keep", {1.5, {}, {}, true});
+  p.set("fill", {1L, {}, {}, true});
   p.set("preconditioner", {preconditioner, {}, {}, true});
   return p;
 }

@@ -29,7 +29,9 @@ std::optional<int> parse_options(int argc, char** argv, Options& o) {
   const std::map<std::string, Edges> edges = {
       {"auto", Edges::automatic}, {"on", Edges::on}, {"off", Edges::off}};
   std::string edge_word = "auto";
-  app.add_option("-e,--edges", edge_word, "edges of cells: on, off or auto (when cells are few; the default)")
+  app.add_option(
+         "-e,--edges", edge_word,
+         "edges of cells: on, off or auto (when cells are few and there are no streamlines; the default)")
       ->check(CLI::IsMember({"auto", "on", "off"}))
       ->expected(0, 1)
       ->default_str("on");

@@ -292,7 +292,8 @@ void render(const std::vector<Body>& bodies, const Options& options) {
 
   vtkIdType cells = 0;
   for (const Body& b : bodies) cells += b.current->GetNumberOfCells();
-  const bool edges = options.edges == Edges::on || (options.edges == Edges::automatic && cells <= 4000);
+  const bool edges = options.edges == Edges::on ||
+                     (options.edges == Edges::automatic && cells <= 4000 && options.streamlines == 0);
   const double line = std::max(1.0, layout.width / 1200.0);
 
   vtkNew<vtkRenderer> renderer;

@@ -143,40 +143,65 @@ double length_of(const Line& line) {
   return sum;
 }
 
+/// The lines of a picture, seeded ever more densely where none has come by.
+class Picture {
+ public:
+  Picture(vtkDataSet* plane, const std::string& array, double distance)
+      : plane_(plane), array_(array), distance_(distance), drawn_(distance) {}
+
+  void add_lines(double seed_spacing) {
+    const auto all = seeds_in(plane_, seed_spacing);
+    vtkNew<vtkPoints> points;
+    for (vtkIdType i = 0; i < all->GetNumberOfPoints(); ++i)
+      if (Vec3 x; all->GetPoint(i, x.data()), is_free(x)) points->InsertNextPoint(x.data());
+    if (points->GetNumberOfPoints() == 0) return;
+    vtkNew<vtkPolyData> seeds;
+    seeds->SetPoints(points);
+    const double step = 0.1 * distance_;
+    const auto forward = trace(plane_, array_, seeds, vtkStreamTracer::FORWARD, step);
+    auto backward = trace(plane_, array_, seeds, vtkStreamTracer::BACKWARD, step);
+    // The longest lines first: they give the picture its order, others fill the gaps.
+    std::vector<std::pair<double, vtkIdType>> order;
+    for (const auto& [seed, line] : forward)
+      order.emplace_back(length_of(line) + length_of(backward[seed]), seed);
+    std::sort(order.rbegin(), order.rend());
+    for (const auto& [length, seed] : order)
+      if (length > 0.5 * distance_ && is_free(forward.at(seed).front()))
+        add_line(forward.at(seed), backward[seed]);
+  }
+  [[nodiscard]] vtkSmartPointer<vtkPolyData> lines() const {
+    auto result = vtkSmartPointer<vtkPolyData>::New();
+    result->SetPoints(points_);
+    result->SetLines(cells_);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] bool is_free(const Vec3& x) const { return !drawn_.is_near(x, 1, -1, 0); }
+  void add_line(const Line& ahead, const Line& behind) {
+    const int number = static_cast<int>(cells_->GetNumberOfCells());
+    const Line front = free_part(ahead, number, 1, drawn_);
+    Line whole = free_part(behind, number, -1, drawn_);
+    std::reverse(whole.begin(), whole.end());
+    whole.insert(whole.end(), front.begin(), front.end());
+    cells_->InsertNextCell(static_cast<vtkIdType>(whole.size()));
+    for (const Vec3& x : whole) cells_->InsertCellPoint(points_->InsertNextPoint(x.data()));
+  }
+
+  vtkDataSet* plane_;
+  const std::string& array_;
+  double distance_;
+  Drawn drawn_;
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> cells_;
+};
+
 }  // namespace
 
 vtkSmartPointer<vtkPolyData> streamlines_of(vtkDataSet* plane, const std::string& array, double distance) {
-  const auto seeds = seeds_in(plane, 0.7 * distance);
-  const double step = 0.1 * distance;
-  const auto forward = trace(plane, array, seeds, vtkStreamTracer::FORWARD, step);
-  const auto backward = trace(plane, array, seeds, vtkStreamTracer::BACKWARD, step);
-  // The longest lines first: they give the picture its order, others fill the gaps.
-  std::vector<std::pair<double, vtkIdType>> order;
-  for (const auto& [seed, line] : forward) {
-    const auto other = backward.find(seed);
-    order.emplace_back(-length_of(line) - (other == backward.end() ? 0 : length_of(other->second)), seed);
-  }
-  std::sort(order.begin(), order.end());
-  Drawn drawn(distance);
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
-  for (const auto& [negative_length, seed] : order) {
-    const int number = static_cast<int>(seed);
-    const Line& ahead = forward.at(seed);
-    if (ahead.empty() || -negative_length < 0.5 * distance || drawn.is_near(ahead.front(), 1, number, 0))
-      continue;
-    const Line front = free_part(ahead, number, 1, drawn);
-    const auto other = backward.find(seed);
-    Line whole = other == backward.end() ? Line{} : free_part(other->second, number, -1, drawn);
-    std::reverse(whole.begin(), whole.end());
-    whole.insert(whole.end(), front.begin(), front.end());
-    cells->InsertNextCell(static_cast<vtkIdType>(whole.size()));
-    for (const Vec3& x : whole) cells->InsertCellPoint(points->InsertNextPoint(x.data()));
-  }
-  result->SetPoints(points);
-  result->SetLines(cells);
-  return result;
+  Picture picture(plane, array, distance);
+  for (const double spacing : {16.0, 8.0, 4.0, 2.0, 1.0, 0.6}) picture.add_lines(spacing * distance);
+  return picture.lines();
 }
 
 }  // namespace seam::picture

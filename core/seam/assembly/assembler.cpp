@@ -254,7 +254,8 @@ void Assembler::name_unknowns() {
     const Space& space = *b.block->space;
     for (int node = 0; node < space.owned_nodes(); ++node)
       for (int c = 0; c < b.block->size && b.node_index[node] >= 0; ++c)
-        matrix_.unknown.push_back(before + static_cast<long long>(space.global_node(node)) * b.block->size + c);
+        matrix_.unknown.push_back(before + static_cast<long long>(space.global_node(node)) * b.block->size +
+                                  c);
     before += static_cast<long long>(space.global_bound()) * b.block->size;
   }
 }

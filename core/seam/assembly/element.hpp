@@ -35,9 +35,9 @@ struct ElementSide {
 struct Element {
   int dimension = 2;
   int points = 0;
-  std::vector<double> weight;     ///< [point], m^d or m^(d-1)
-  std::vector<double> normal;     ///< [point][dimension], outward from side 0; empty for cells
-  std::vector<double> cell_size;  ///< [point]
+  std::vector<double> weight;      ///< [point], m^d or m^(d-1)
+  std::vector<double> normal;      ///< [point][dimension], outward from side 0; empty for cells
+  std::vector<double> cell_size;   ///< [point]
   std::vector<double> trace_size;  ///< [point], see Point
   std::vector<ElementSide> sides;
 

@@ -24,7 +24,8 @@ FaceTables::FaceTables(const Field& field, int degree, bool with_hessian) : type
                    &points[static_cast<std::size_t>(q) * cell.dimension]);
     for (int order = 1; order <= 2; ++order)
       if (uses_order(field, order))
-        tabulate(type_, order, points.data(), rule_->count(), with_hessian, tables_[order - 1].emplace_back());
+        tabulate(type_, order, points.data(), rule_->count(), with_hessian,
+                 tables_[order - 1].emplace_back());
   }
   tabulate_partners(field, with_hessian);
 }

@@ -227,7 +227,7 @@ class MeshBody final : public BodyShape {
 template <class Type>
 void add(Registry& registry, const std::string& name) {
   registry.add<BodyShape>("body", name, Type::schema(),
-                     [](const Parameters& p, const Registry&) { return std::make_unique<Type>(p); });
+                          [](const Parameters& p, const Registry&) { return std::make_unique<Type>(p); });
 }
 
 }  // namespace

@@ -7,6 +7,12 @@
 
 namespace seam {
 
+CutBoundary::CutBoundary(Field& field, int body, int degree) : field_(&field), body_(body), degree_(degree) {
+  // Tensor cells count the degree per direction; along an oblique facet the directions add up.
+  const CellType type = field.mesh().type();
+  if (type == CellType::quadrilateral || type == CellType::hexahedron) degree_ *= field.mesh().dimension();
+}
+
 void CutBoundary::update(const Field& field) {
   if (&field != field_) return;
   pieces_.clear();

@@ -14,7 +14,8 @@ namespace seam {
 class CutBoundary : public IntegrationDomain {
  public:
   /// @param body its number in the field's FieldCut
-  CutBoundary(Field& field, int body, int degree) : field_(&field), body_(body), degree_(degree) {}
+  /// @param degree to integrate exactly, as the field's cells count it
+  CutBoundary(Field& field, int body, int degree);
   [[nodiscard]] int size() const override { return static_cast<int>(pieces_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
   void fill(int index, Element& element) const override;

@@ -86,8 +86,8 @@ std::optional<Surface> CutInterface::body(const MeshFinder& meshes, int dimensio
 
 std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) const {
   Field& field = *setup.sides[0];
-  FieldCut::Body moving = moving_body([&](const std::string& name) { return setup.mesh(name); },
-                                      field.mesh().dimension());
+  FieldCut::Body moving =
+      moving_body([&](const std::string& name) { return setup.mesh(name); }, field.mesh().dimension());
   return std::make_shared<CutBoundary>(field, setup.cut(0).add_body(std::move(moving)), setup.degree);
 }
 

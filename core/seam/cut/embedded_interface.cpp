@@ -16,12 +16,15 @@ namespace {
 class BodySurface {
  public:
   BodySurface(Field& body, const std::vector<std::string>& boundaries, const std::string& displacement)
-      : body_(&body), boundary_(body_boundary(body.mesh().whole(), boundaries)), place_(body.place(displacement)) {
+      : body_(&body),
+        boundary_(body_boundary(body.mesh().whole(), boundaries)),
+        place_(body.place(displacement)) {
     const Space& space = *body.blocks()[place_.block].space;
     if (space.order() != body.mesh().order())
-      throw Error(fmt::format("the displacement of field '{}' has order {}, its mesh order {}: a body that cuts "
-                              "another mesh needs both alike; give its mesh the order of its displacement",
-                              body.name(), space.order(), body.mesh().order()));
+      throw Error(
+          fmt::format("the displacement of field '{}' has order {}, its mesh order {}: a body that cuts "
+                      "another mesh needs both alike; give its mesh the order of its displacement",
+                      body.name(), space.order(), body.mesh().order()));
     std::map<int, int> group;  // of a global cell
     std::vector<int> cells;
     for (const CellFace& parent : boundary_.parent) {
@@ -102,7 +105,8 @@ class EmbeddedBoundary final : public CutBoundary {
     const auto on_facet = static_cast<std::size_t>(surface_->body().mesh().dimension() - 1);
     std::vector<double> reference;
     for (const int q : points)
-      surface_->to_cell(rule.facet[q], &rule.facet_reference[static_cast<std::size_t>(q) * on_facet], reference);
+      surface_->to_cell(rule.facet[q], &rule.facet_reference[static_cast<std::size_t>(q) * on_facet],
+                        reference);
     piece.partner.weight = piece.weight;
     piece.partner.fill(surface_->body(), reference, true);
   }

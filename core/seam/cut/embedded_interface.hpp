@@ -11,9 +11,9 @@
 
 namespace seam {
 
-/// The boundary of one field's mesh, moved by that field's displacement, cut out of another field's mesh. Side
-/// 0 is the field that is cut, side 1 the body; points carry the trace of the body's cell behind the facet, in
-/// its reference configuration.
+/// The boundary of one field's mesh, moved by that field's displacement, cut out of another field's mesh.
+/// Side 0 is the field that is cut, side 1 the body; points carry the trace of the body's cell behind the
+/// facet, in its reference configuration.
 class EmbeddedInterface final : public Interface {
  public:
   explicit EmbeddedInterface(const Parameters& parameters) : parameters_(parameters) {}

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "seam/cut/cut_mesh.hpp"
@@ -12,6 +13,11 @@ namespace seam {
 
 /// The bodies that cut a field's mesh, and what their motion means for the field: which cells and nodes are
 /// active, and how states reach nodes that come alive (thesis 3.2).
+///
+/// Connected parts of less than two cells' volume are no part of the field: neither could the mesh resolve
+/// what goes on in them, nor would a body that closes them let an incompressible fluid go. Those that reach
+/// an open boundary stay. The first cut of a step decides; whatever it keeps stays for the step, and what it
+/// drops stays out, also where it creeps into cells that were body.
 class FieldCut {
  public:
   explicit FieldCut(Field& field);
@@ -21,8 +27,14 @@ class FieldCut {
   /// @return the body's number, as InterfaceRule::body has it
   int add_body(Body body);
 
+  /// Parts that reach these boundaries are never dropped.
+  void keep_at(std::vector<std::string> boundaries) { open_boundaries_ = std::move(boundaries); }
+  /// The next cut decides anew which parts are dropped.
+  void begin_step() { decided_ = false; }
+
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
-  /// that come alive. Occupying the cells is left to the caller. Collective.
+  /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
+  /// the caller. Collective.
   /// @return false when nothing has changed since the last call
   /// @throws StepRefused when a cell comes alive that no known state reaches
   bool update(double time);
@@ -32,14 +44,27 @@ class FieldCut {
   [[nodiscard]] bool has_new_nodes() const { return !states_match(); }
   /// Per local cell.
   [[nodiscard]] const std::vector<char>& active_cells() const { return active_; }
+  /// Of the parts left out at present, on all ranks, m^d.
+  [[nodiscard]] double dropped_volume() const { return dropped_volume_; }
 
  private:
+  /// What the first cut of a step made of a local cell.
+  enum class Decision : char { body, kept, dropped };
   [[nodiscard]] bool states_match() const;
+  [[nodiscard]] std::vector<char> open_parts(const FluidParts& parts) const;
+  [[nodiscard]] std::vector<int> decide();
+  [[nodiscard]] std::vector<int> follow_decision() const;
   Field* field_;
   CutMesh mesh_;
   std::vector<Body> bodies_;
   std::vector<Surface> surfaces_;  ///< at the last update
   std::vector<char> active_;
+  std::vector<std::string> open_boundaries_;
+  std::vector<Decision> decision_;  ///< [local cell]
+  bool decided_ = false;            ///< in this step
+  bool is_first_cut_ = false;       ///< the present cut is the one that decided
+  double time_ = 0;                 ///< of the last update
+  double dropped_volume_ = 0;
   Extension extension_;
 };
 

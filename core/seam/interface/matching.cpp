@@ -176,8 +176,7 @@ std::shared_ptr<IntegrationDomain> MatchingInterface::build(InterfaceSetup& setu
     faces.push_back(face);
     partner_cells.push_back(partner->cell);
   }
-  return std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells),
-                                          setup.degree);
+  return std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells), setup.degree);
 }
 
 void register_interfaces(Registry& registry) {

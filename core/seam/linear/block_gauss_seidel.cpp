@@ -109,8 +109,8 @@ Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>
 
 Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
                                                      const Matrix& a,
-                                                     const std::vector<EquationBlock>& blocks,
-                                                     bool multigrid, int fill) {
+                                                     const std::vector<EquationBlock>& blocks, bool multigrid,
+                                                     int fill) {
   std::vector<BlockGaussSeidel::Part> parts;
   for (const EquationBlock& block : blocks) {
     const auto matrix = blocks.size() == 1 ? system : diagonal_block(system, a, block);

@@ -41,10 +41,7 @@ Schema KrylovSolver::schema() {
   s.choice("preconditioner", "Per field block: multigrid where the block suits it, or ilu everywhere",
            {"multigrid", "ilu"})
       .otherwise("multigrid");
-  s.integer("fill", "Levels of fill-in of incomplete factorisations")
-      .otherwise("0")
-      .at_least(0)
-      .at_most(5);
+  s.integer("fill", "Levels of fill-in of incomplete factorisations").otherwise("0").at_least(0).at_most(5);
   s.number(
        "keep",
        "The preconditioner is kept while iterations stay below this multiple of its first solve's; 0: never")

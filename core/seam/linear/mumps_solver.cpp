@@ -29,7 +29,7 @@ struct MumpsSolver::Instance {
   std::vector<int> row, column;
   long long pattern_version = -1;
   bool factorised = false;
-  int last_iterations = 0;  ///< of the last system the factors preconditioned
+  int last_iterations = 0;                      ///< of the last system the factors preconditioned
   std::unordered_map<long long, int> equation;  ///< number of each unknown when it was factorised
   bool begun = false;
 
@@ -58,8 +58,8 @@ struct MumpsSolver::Instance {
   }
 };
 
-/// The inverse of a matrix factorised earlier as a preconditioner of a later one. Unknowns that have come alive
-/// since are scaled by their diagonal; those that are gone have a right-hand side of zero.
+/// The inverse of a matrix factorised earlier as a preconditioner of a later one. Unknowns that have come
+/// alive since are scaled by their diagonal; those that are gone have a right-hand side of zero.
 class MumpsSolver::KeptFactors final : public TpetraOperator {
  public:
   KeptFactors(std::shared_ptr<Instance> instance, const Matrix& a, Teuchos::RCP<const TpetraMap> map)
@@ -117,9 +117,10 @@ MumpsSolver::~MumpsSolver() = default;
 
 Schema MumpsSolver::schema() {
   Schema s("Distributed sparse direct factorisation (MUMPS): robust, for up to some 10^5 unknowns in 3D.");
-  s.integer("keep",
-            "A factorisation is kept as preconditioner of later systems, also over moving cuts, while they take "
-            "at most so many iterations; 0: each system is factorised")
+  s.integer(
+       "keep",
+       "A factorisation is kept as preconditioner of later systems, also over moving cuts, while they take "
+       "at most so many iterations; 0: each system is factorised")
       .otherwise("0")
       .at_least(0);
   return s;

@@ -16,7 +16,7 @@ Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>
 /// Forward block Gauss-Seidel over the blocks of a system.
 Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
                                                      const Matrix& a,
-                                                     const std::vector<EquationBlock>& blocks,
-                                                     bool multigrid, int fill);
+                                                     const std::vector<EquationBlock>& blocks, bool multigrid,
+                                                     int fill);
 
 }  // namespace seam

@@ -41,8 +41,8 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
   try {
     if (reaction_ && boundaries_.empty())
       throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
-    quantity_ = find_quantity(
-        entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
+    quantity_ =
+        find_quantity(entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
   } catch (const Error& error) {
     throw Error(p.where("quantity"), error.what());
   }
@@ -82,12 +82,14 @@ void Probe::record(Problem& problem, const TimePoint& at, Results& results) cons
 }
 
 void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
-  for (const FieldEntry& entry : problem.fields())
+  for (const FieldEntry& entry : problem.fields()) {
+    if (entry.cut) results.series[entry.name + ".dropped_volume"].push_back(entry.cut->dropped_volume());
     for (const FieldQuantity& integral : entry.integrals) {
       const int components = integral.term->signature(entry.mesh->dimension()).values;
       const auto values = cell_integral(entry, {integral.term, integral.operands, components}, at);
       results.series[entry.name + "." + integral.name].push_back(values.at(0));
     }
+  }
 }
 
 void write_series(const std::string& path, const Results& results) {

@@ -86,7 +86,8 @@ void Simulation::build_fields(const Registry& registry) {
   }
 }
 
-/// What the cells of a mesh cost, from the bodies that cut it at the start; empty where they all cost the same.
+/// What the cells of a mesh cost, from the bodies that cut it at the start; empty where they all cost the
+/// same.
 std::vector<double> Simulation::cell_costs(const std::string& mesh) const {
   if (communicator_.size() == 1) return {};
   std::vector<Surface> bodies;

@@ -63,8 +63,10 @@ Schema solver_schema() {
 Schema picture_schema() {
   Schema schema("A picture of the last state, as PNG.");
   schema.reference("field", "whose mesh is shown", "field");
-  schema.text("quantity", "what colours it: a quantity that `seam explain` lists for the field's type; reaction, the force that holds what is "
-                          "prescribed on `on`; or force, what the couplings on `interface` exert on the body");
+  schema.text("quantity",
+              "what colours it: a quantity that `seam explain` lists for the field's type; reaction, the "
+              "force that holds what is "
+              "prescribed on `on`; or force, what the couplings on `interface` exert on the body");
   schema.choice("component", "of a vector quantity; default its magnitude", {"x", "y", "z", "magnitude"})
       .optional();
   schema.number("deformed", "scale of the displacement that moves the mesh; 0 for none").otherwise("1");
@@ -80,8 +82,10 @@ Schema probe_schema() {
   schema.reference("interface", "over which it is integrated, instead of a field", "interface").optional();
   schema.vector("at", "point in the reference configuration").unit("m").optional();
   schema.names("on", "boundaries instead of a point").naming("boundary").optional();
-  schema.text("quantity", "a quantity that `seam explain` lists for the field's type; reaction, the force that holds what is "
-                          "prescribed on `on`; or force, what the couplings on `interface` exert on the body");
+  schema.text(
+      "quantity",
+      "a quantity that `seam explain` lists for the field's type; reaction, the force that holds what is "
+      "prescribed on `on`; or force, what the couplings on `interface` exert on the body");
   schema.choice("component", "of a vector quantity; default all of them", {"x", "y", "z", "magnitude"})
       .optional();
   return schema;
@@ -96,10 +100,11 @@ Schema formula_schema() {
 Schema statistic_schema() {
   Schema schema("What a series does over time, known at the end.");
   schema.text("of", "a probe or a formula");
-  schema.choice("what",
-                "frequency: of the upward crossings of the mean; roughness: largest deviation of a value from "
-                "the cubic through its four neighbours, over the largest magnitude",
-                {"maximum", "minimum", "mean", "frequency", "roughness"});
+  schema.choice(
+      "what",
+      "frequency: of the upward crossings of the mean; roughness: largest deviation of a value from "
+      "the cubic through its four neighbours, over the largest magnitude",
+      {"maximum", "minimum", "mean", "frequency", "roughness"});
   schema.number("from", "time from which on it counts; default the start").unit("s").optional();
   return schema;
 }
@@ -126,7 +131,8 @@ Schema output_schema() {
   schema.boolean("fields", "write the fields as VTU, with a PVD file for the time series").otherwise("true");
   schema.object("picture", "a picture of the last state", picture_schema()).optional();
   schema.map("probes", "numbers recorded at every step, as CSV", probe_schema()).otherwise("{}");
-  schema.value_map("formulas", "numbers computed from probes at every step", formula_schema()).otherwise("{}");
+  schema.value_map("formulas", "numbers computed from probes at every step", formula_schema())
+      .otherwise("{}");
   schema.map("statistics", "extremes, means and frequencies of series", statistic_schema()).otherwise("{}");
   schema.map("errors", "comparison with known solutions", error_schema()).otherwise("{}");
   schema.object("restart", "points to continue from", restart).otherwise("{}");
@@ -173,7 +179,8 @@ Schema scene_schema() {
   Schema schema("A scene: meshes, fields on them, interfaces between fields, and what happens there.");
   schema.text("title", "what the scene shows");
   schema.text("source", "where it comes from: a paper, a benchmark").optional();
-  schema.choice("tier", "when the tests run it: always, or at night because it takes long", {"fast", "nightly"})
+  schema
+      .choice("tier", "when the tests run it: always, or at night because it takes long", {"fast", "nightly"})
       .otherwise("fast");
   schema.integer("dimension", "of space").at_least(2).at_most(3);
   schema.names("plugins", "plugins to load").naming("plugin").otherwise("[]");

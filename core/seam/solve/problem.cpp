@@ -64,6 +64,8 @@ void Problem::finish(double time) {
     }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
     place_levels(entry);
+    for (const LevelCondition& level : entry.levels)
+      if (entry.cut) entry.cut->keep_at(level.open_boundaries);
     fields.push_back(entry.field.get());
   }
   update_cuts(time_point(time, 0, 1));
@@ -156,6 +158,8 @@ void Problem::set_prescribed(double time) {
 
 void Problem::begin_step(const TimePoint& at) {
   set_prescribed(at.time);
+  for (FieldEntry& entry : fields_)
+    if (entry.cut) entry.cut->begin_step();
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       block.old = block.now;

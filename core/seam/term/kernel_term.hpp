@@ -106,8 +106,8 @@ struct Point {
   /// m, on boundaries and interfaces: volume of side 0's cell over the area of the boundary in it, the length
   /// that scales Nitsche penalties (the whole cell's volume where it is cut).
   double trace_size = 0;
-  double time = 0;       ///< s, end of the step
-  double step = 0;       ///< s; 0 in a static problem
+  double time = 0;  ///< s, end of the step
+  double step = 0;  ///< s; 0 in a static problem
   double theta = 1;
 };
 

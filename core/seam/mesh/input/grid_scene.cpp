@@ -73,7 +73,8 @@ std::vector<double> explicit_lines(const Parameters& p, int i) {
 }
 
 /// Lines of one stretch. @param keys holds the keys `to`, `grading` and `cells` for messages
-std::vector<double> stretch_lines(const Parameters& keys, int i, double from, double to, int n, double ratio) {
+std::vector<double> stretch_lines(const Parameters& keys, int i, double from, double to, int n,
+                                  double ratio) {
   if (!(to > from) || !std::isfinite(to - from))
     throw Error(keys.where("to"),
                 fmt::format("the grid ends at {} = {}, not beyond its start at {}; exchange 'from' "
@@ -98,9 +99,9 @@ std::vector<double> segment_lines(const Parameters& p, int i) {
   const Parameters& segments = p.object("segments");
   std::vector<double> lines{segments.vector("from")[i]};
   for (const Parameters& segment : segments.list(axis_names[i])) {
-    const std::vector<double> next = stretch_lines(segment, i, lines.back(), segment.number("to"),
-                                                   static_cast<int>(segment.integer("cells")),
-                                                   segment.number("grading"));
+    const std::vector<double> next =
+        stretch_lines(segment, i, lines.back(), segment.number("to"),
+                      static_cast<int>(segment.integer("cells")), segment.number("grading"));
     lines.insert(lines.end(), next.begin() + 1, next.end());
   }
   return lines;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Parts of a field too small to be kept, through the cuts of one step.
+#include <catch2/catch.hpp>
+
+#include "cut/cut_test.hpp"
+#include "seam/base/diagnostics.hpp"
+#include "seam/cut/field_cut.hpp"
+
+using namespace seam;
+
+namespace {
+
+/// A chamber with thick walls.
+std::vector<Surface> chamber(double x0, double x1, double y0, double y1) {
+  const auto rectangle = [](double a, double b, double c, double d) {
+    return polygon({{a, b, 0}, {c, b, 0}, {c, d, 0}, {a, d, 0}});
+  };
+  return {rectangle(x0 - .2, y0 - .2, x1 + .2, y0), rectangle(x0 - .2, y1, x1 + .2, y1 + .2),
+          rectangle(x0 - .2, y0 - .2, x0, y1 + .2), rectangle(x1, y0 - .2, x1 + .2, y1 + .2)};
+}
+
+}  // namespace
+
+TEST_CASE("What the first cut of a step drops stays out for the step", "[cut][parts][ranks]") {
+  const double h = 1.0 / 20;
+  const Mesh mesh = grid(CellType::quadrilateral, {20, 20, 0}, unmoved());
+  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
+  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
+  FieldCut cut(field);
+  double shift = 0, width = h;
+  for (int k = 0; k < 4; ++k)
+    cut.add_body([&, k](double) { return chamber(.43 + shift, .43 + shift + width, .52, .52 + h)[k]; });
+
+  CHECK(cut.update(0));
+  CHECK(cut.dropped_volume() == Approx(h * h).epsilon(1e-12));
+  CHECK_FALSE(cut.update(0));
+  // Into cells that were body.
+  shift = 0.04;
+  CHECK(cut.update(0));
+  CHECK(cut.dropped_volume() == Approx(h * h).epsilon(1e-12));
+  // Beyond the size that a new step would keep.
+  width = 2.5 * h;
+  CHECK(cut.update(0));
+  CHECK(cut.dropped_volume() == Approx(2.5 * h * h).epsilon(1e-12));
+  CHECK(cut.mesh().find_parts().volume.size() == 1);
+  // A new step decides anew, and finds no states to start from.
+  CHECK_THROWS_AS(cut.update(0.1), StepRefused);
+  CHECK(cut.dropped_volume() == 0);
+}
+
+TEST_CASE("What the first cut of a step keeps stays in for the step", "[cut][parts][ranks]") {
+  const double h = 1.0 / 20;
+  const Mesh mesh = grid(CellType::quadrilateral, {20, 20, 0}, unmoved());
+  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
+  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
+  FieldCut cut(field);
+  double width = 2.1 * h;
+  for (int k = 0; k < 4; ++k)
+    cut.add_body([&, k](double) { return chamber(.43, .43 + width, .52, .52 + h)[k]; });
+  CHECK(cut.update(0));
+  width = 1.8 * h;
+  CHECK(cut.update(0));
+  CHECK(cut.dropped_volume() == 0);
+  CHECK(cut.mesh().find_parts().volume.size() == 2);
+  cut.begin_step();
+  CHECK(cut.update(0));
+  CHECK(cut.dropped_volume() == Approx(1.8 * h * h).epsilon(1e-12));
+  cut.begin_step();
+  CHECK_FALSE(cut.update(0));
+}
