@@ -116,10 +116,11 @@ void displace(Body& body, const std::string& file, const Options& options) {
 }
 
 /// A spatial result becomes what it is at half its height, its vectors what they are along that plane.
-void slice(vtkSmartPointer<vtkUnstructuredGrid>& grid) {
+/// @return false for a plane one, which stays as it is
+bool slice(vtkSmartPointer<vtkUnstructuredGrid>& grid) {
   double bounds[6];
   grid->GetBounds(bounds);
-  if (bounds[5] - bounds[4] <= 0) return;
+  if (bounds[5] - bounds[4] <= 0) return false;
   vtkNew<vtkPlane> plane;
   plane->SetOrigin(0, 0, 0.5 * (bounds[4] + bounds[5]));
   plane->SetNormal(0, 0, 1);
@@ -141,6 +142,7 @@ void slice(vtkSmartPointer<vtkUnstructuredGrid>& grid) {
     for (vtkIdType i = 0; array->GetNumberOfComponents() == 3 && i < array->GetNumberOfTuples(); ++i)
       array->SetComponent(i, 2, 0);
   }
+  return true;
 }
 
 }  // namespace
@@ -148,7 +150,7 @@ void slice(vtkSmartPointer<vtkUnstructuredGrid>& grid) {
 Body load_body(const std::string& file, const Options& options) {
   Body body;
   body.reference = read(file);
-  if (options.streamlines > 0) slice(body.reference);
+  if (options.streamlines > 0) body.sliced = slice(body.reference);
   body.current = vtkSmartPointer<vtkUnstructuredGrid>::New();
   body.current->ShallowCopy(body.reference);
   if (!options.array.empty()) colour(body, file, options);

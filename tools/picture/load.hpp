@@ -16,6 +16,7 @@ struct Body {
   vtkSmartPointer<vtkUnstructuredGrid> current;  ///< displaced; scalars (if any) are the values to colour by
   bool coloured = false;
   bool cell_values = false;
+  bool sliced = false;  ///< the plane of a spatial result, not all of it
 };
 
 /// Reads a result and prepares it.

@@ -301,7 +301,8 @@ void render(const std::vector<Body>& bodies, const Options& options) {
   for (const Body& b : bodies) {
     add_surface(renderer, b, colours, range.data(), view.plane);
     if (edges) add_lines(renderer, edges_of(b.current), 0.25, 0.7 * line);
-    add_lines(renderer, outline_of(b.current), 0.1, 1.4 * line);
+    // The parts of cut cells do not meet their neighbours edge to edge in space: no outline tells them apart.
+    if (!b.sliced) add_lines(renderer, outline_of(b.current), 0.1, 1.4 * line);
     if (options.streamlines > 0) add_streamlines(renderer, b, view, options, line);
     if (!options.deform.empty()) add_lines(renderer, outline_of(b.reference), 0.55, 1.2 * line);
   }

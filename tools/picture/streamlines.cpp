@@ -157,7 +157,7 @@ class Picture {
     if (points->GetNumberOfPoints() == 0) return;
     vtkNew<vtkPolyData> seeds;
     seeds->SetPoints(points);
-    const double step = 0.1 * distance_;
+    const double step = 0.25 * distance_;
     const auto forward = trace(plane_, array_, seeds, vtkStreamTracer::FORWARD, step);
     auto backward = trace(plane_, array_, seeds, vtkStreamTracer::BACKWARD, step);
     // The longest lines first: they give the picture its order, others fill the gaps.

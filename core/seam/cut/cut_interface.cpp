@@ -72,7 +72,7 @@ Schema CutInterface::schema() {
 
 FieldCut::Body CutInterface::moving_body(const MeshFinder& meshes, int dimension) const {
   const Surface shape = body_->surface(dimension, meshes);
-  if (!parameters_.has("motion")) return [shape](double) { return shape; };
+  if (!parameters_.has("motion")) return [shape](double) { return Surface(shape); };
   return [shape, motion = Motion(parameters_.object("motion"))](double time) {
     Surface moved = shape;
     motion.apply(moved, time);
