@@ -65,10 +65,11 @@ Sample sample(const Slide& slide, double shift, bool ghost = true) {
 /// Half of them evenly over a cell, half towards alignment from both sides, 1e-1 ... 1e-14 cells away.
 std::vector<double> shifts(int count) {
   std::vector<double> result;
-  for (int k = 0; k < count / 2; ++k) result.push_back((k + 0.5) / (count / 2));
-  for (int k = 0; k < count / 4; ++k)
+  const int half = count / 2, quarter = count / 4;
+  for (int k = 0; k < half; ++k) result.push_back((k + 0.5) / half);
+  for (int k = 0; k < quarter; ++k)
     for (const double side : {-1.0, 1.0})
-      result.push_back(side * std::pow(10, -1 - 13.0 * k / (count / 4 - 1)));
+      result.push_back(side * std::pow(10, -1 - 13.0 * k / (quarter - 1)));
   return result;
 }
 

@@ -2,6 +2,7 @@
 #include "cut_flow.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "couplings.hpp"
 #include "fluid.hpp"
@@ -57,9 +58,12 @@ FlowRun::FlowRun(const std::string& path, Overrides overrides)
 
 const Results& FlowRun::run() {
   RunOptions options;
-  options.folder = std::filesystem::temp_directory_path() / "seam_cut_flow_test";
+  // Of this process alone: the tests may run several times at once.
+  options.folder = std::filesystem::temp_directory_path() / fmt::format("seam_cut_flow_test_{}", getpid());
   options.quiet = true;
-  return simulation_->run(options);
+  const Results& results = simulation_->run(options);
+  std::filesystem::remove_all(options.folder);
+  return results;
 }
 
 CutErrors errors_of(const Results& results) {
