@@ -21,7 +21,7 @@ def report(summary, note):
     newton = [len(step["iterations"]) - 1 for step in summary["newton"]]
     linear = linear_iterations(summary)
     lines = [f"# {summary['title']}", "", f"Scene `{Path(summary['scene']).name}`"
-             + (", with " + ", ".join(f"`{k}={v}`" for k, v in summary["overrides"]) if summary["overrides"] else "")
+             + (", with " + ", ".join(f"`{o}`" for o in summary["overrides"]) if summary["overrides"] else "")
              + (f". {note}" if note else "."), "",
              "| number | value | reference | deviation | holds | source |", "|---|---|---|---|---|---|"]
     for check in summary["checks"]:
