@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <regex>
-
 namespace seam::test {
 
 ExactFlow vortices(const std::string& g, const std::string& dg) {
@@ -24,19 +22,24 @@ ExactFlow vortices(const std::string& g, const std::string& dg) {
 }
 
 ExactFlow spirals() {
-  ExactFlow e;
-  e.velocity = {"sin(k*z) + cos(k*y)", "sin(k*x) + cos(k*z)", "sin(k*y) + cos(k*x)"};
-  e.rate = {"0", "0", "0"};
-  e.gradient = {"0",           "-k*sin(k*y)", "k*cos(k*z)", "k*cos(k*x)", "0",
-                "-k*sin(k*z)", "-k*sin(k*x)", "k*cos(k*y)", "0"};
-  for (const std::string& v : e.velocity) e.laplacian.push_back("-k^2*(" + v + ")");
-  e.pressure = "sin(k*x)*cos(k*y + 0.5)*cos(k*z)";
-  e.pressure_gradient = {"k*cos(k*x)*cos(k*y + 0.5)*cos(k*z)", "-k*sin(k*x)*sin(k*y + 0.5)*cos(k*z)",
-                         "-k*sin(k*x)*cos(k*y + 0.5)*sin(k*z)"};
   // So wide that four cells per direction resolve it.
-  for (auto* list : {&e.velocity, &e.gradient, &e.laplacian, &e.pressure_gradient})
-    for (std::string& text : *list) text = std::regex_replace(text, std::regex("\\bk\\b"), "1.5");
-  e.pressure = std::regex_replace(e.pressure, std::regex("\\bk\\b"), "1.5");
+  const auto with_number = [](const char* text) {
+    return fmt::format(fmt::runtime(text), fmt::arg("k", 1.5));
+  };
+  ExactFlow e;
+  for (const char* text : {"sin({k}*z) + cos({k}*y)", "sin({k}*x) + cos({k}*z)", "sin({k}*y) + cos({k}*x)"}) {
+    e.velocity.push_back(with_number(text));
+    e.laplacian.push_back(with_number("-{k}^2*(") + e.velocity.back() + ")");
+    e.rate.emplace_back("0");
+  }
+  for (const char* text : {"0", "-{k}*sin({k}*y)", "{k}*cos({k}*z)", "{k}*cos({k}*x)", "0", "-{k}*sin({k}*z)",
+                           "-{k}*sin({k}*x)", "{k}*cos({k}*y)", "0"})
+    e.gradient.push_back(with_number(text));
+  e.pressure = with_number("sin({k}*x)*cos({k}*y + 0.5)*cos({k}*z)");
+  for (const char* text :
+       {"{k}*cos({k}*x)*cos({k}*y + 0.5)*cos({k}*z)", "-{k}*sin({k}*x)*sin({k}*y + 0.5)*cos({k}*z)",
+        "-{k}*sin({k}*x)*cos({k}*y + 0.5)*sin({k}*z)"})
+    e.pressure_gradient.push_back(with_number(text));
   e.viscosity = 0.3;
   return e;
 }
