@@ -36,16 +36,16 @@ struct FluidSided {
   double adjoint;      ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
   double normal_penalty, tangential_penalty;
 
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Vec<dim, double>& n = x.normal;
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Vec<dim, G>& n = x.normal;
     const Vec<dim, T> velocity = s.value(Velocity{});
     const Vec<dim, T> jump = velocity - s.rate(Displacement{});
     const T gap = dot(jump, n);
     Vec<dim, T> force = ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n;
     force -= s.value(Pressure{}) * n;
 
-    const T phi = resistance<dim, T>(x, velocity);
+    const T phi = resistance<dim, T, G>(x, velocity);
     const T beta = x.trace_size / (tangential_penalty * phi);
     const T sum = slip_length / flow.viscosity + beta;
     const Vec<dim, T> along = (1.0 / sum) * (jump - gap * n);
@@ -64,8 +64,8 @@ struct FluidSided {
  private:
   /// Phi: mu + h c_v rho |v| + h^2 c_t rho/(theta dt), Pa s. |v| falls to zero smoothly below a tenth of the
   /// speed at which convection matters: with its kink Newton's method would limp wherever the fluid rests.
-  template <int dim, class T>
-  T resistance(const Point<dim>& x, const Vec<dim, T>& velocity) const {
+  template <int dim, class T, class G>
+  T resistance(const Point<dim, G>& x, const Vec<dim, T>& velocity) const {
     using std::sqrt;
     constexpr double c_v = 1.0 / 6, c_t = 1.0 / 12;
     const double h = x.trace_size;

@@ -15,8 +15,8 @@ Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicato
 }
 
 void Assembler::add(const std::shared_ptr<const IntegrationDomain>& domain,
-                    const std::vector<BoundTerm>& terms) {
-  Group group{domain, std::make_unique<ElementEvaluator>(*domain, terms), {}};
+                    const std::vector<BoundTerm>& terms, ElementEvaluator::Role role) {
+  Group group{domain, std::make_unique<ElementEvaluator>(*domain, terms, role), {}};
   for (const auto& part : group.evaluator->parts())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       if (blocks_[b].block == part.states) group.block_of_part.push_back(static_cast<int>(b));

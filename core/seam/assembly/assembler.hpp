@@ -20,7 +20,8 @@ class Assembler {
   Assembler(std::vector<Field*> fields, const Communicator& communicator);
 
   /// Adds terms to be integrated over a domain.
-  void add(const std::shared_ptr<const IntegrationDomain>& domain, const std::vector<BoundTerm>& terms);
+  void add(const std::shared_ptr<const IntegrationDomain>& domain, const std::vector<BoundTerm>& terms,
+           ElementEvaluator::Role role = ElementEvaluator::Role::integrate);
 
   /// Numbers the active unknowns and builds the pattern. Collective.
   void rebuild();

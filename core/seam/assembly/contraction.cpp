@@ -112,8 +112,10 @@ SEAM_VERSIONS void contract(const Contraction& work, std::vector<double>& scratc
       double* row = scratch.data();
       for (int q = 0; q < points; ++q)
         for (int i = 0; i < test.rows; ++i, row += width)
-          apply_columns(column, columns, q, work.weight[q],
-                        work.tangent + (static_cast<std::ptrdiff_t>(q) * outputs + out + i) * columns, row);
+          apply_columns(
+              column, columns, q, work.weight[q],
+              work.tangent + (static_cast<std::ptrdiff_t>(q) * outputs + out + i) * work.tangent_columns,
+              row);
       double* target = work.matrix +
                        static_cast<std::ptrdiff_t>(test.offset + c * test.stride) * work.matrix_stride +
                        work.first_column;

@@ -18,7 +18,8 @@ struct SlotOperator {
 struct Contraction {
   int points = 0;
   const double* weight = nullptr;     ///< [point]
-  const double* tangent = nullptr;    ///< D: [point][outputs][columns]
+  const double* tangent = nullptr;    ///< D: [point][outputs][tangent columns]
+  int tangent_columns = 0;            ///< at least those of `columns`; what is behind them is left alone
   std::vector<SlotOperator> outputs;  ///< of the test functions
   std::vector<SlotOperator> columns;  ///< of the trial functions
   int first_column = 0;               ///< of the element matrix that this term touches

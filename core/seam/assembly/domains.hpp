@@ -30,6 +30,7 @@ class CellDomain final : public IntegrationDomain {
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] std::string description() const override;
+  [[nodiscard]] const Field* whole_field() const override { return cells_ == Cells::all ? field_ : nullptr; }
   void update(const Field& field) override;
 
  private:

@@ -6,6 +6,7 @@
 #include "seam/field/field.hpp"
 #include "seam/mesh/lagrange.hpp"
 #include "seam/mesh/quadrature.hpp"
+#include "seam/term/term.hpp"
 
 namespace seam {
 
@@ -31,6 +32,17 @@ struct ElementSide {
   void map_geometry();
 };
 
+/// How an element's points move with the nodes of a body on one of its sides: derivatives with respect to the
+/// coordinates of the nodes that a point's facet has. Move k of a point = node * dimension + component of it,
+/// dimension^2 of them.
+struct PointMotion {
+  std::vector<int> node;                ///< [point][dimension]: node of the side's cell in the moving block
+  std::vector<double> position;         ///< [point][dimension][move]
+  std::vector<double> normal;           ///< [point][dimension][move], 1/m
+  std::vector<double> relative_weight;  ///< [point][move], 1/m
+  std::vector<double> reference;        ///< [point][reference direction][move], in the body's cell, 1/m
+};
+
 /// What terms are integrated over: a cell, a face, or a piece of an interface, with its quadrature points.
 struct Element {
   int dimension = 2;
@@ -40,6 +52,7 @@ struct Element {
   std::vector<double> cell_size;   ///< [point]
   std::vector<double> trace_size;  ///< [point], see Point
   std::vector<ElementSide> sides;
+  const PointMotion* motion = nullptr;  ///< where IntegrationDomain::mover() says so
 
   /// Fills weight and normal of points on a face of side 0's cell. @param weights of the reference face
   void measure_face(const CellTopology& cell, int face, const std::vector<double>& weights);
@@ -62,6 +75,10 @@ class IntegrationDomain {
   virtual void fill(int index, Element& element) const = 0;
   /// Local nodes of one side's cell in one block, without the cost of fill().
   [[nodiscard]] virtual const int* nodes(int index, int side, int block) const = 0;
+  /// The unknown that displaces the points, and the side it lives on; null where they are at rest.
+  [[nodiscard]] virtual const Operand* mover() const { return nullptr; }
+  /// The field whose cells, all of them, are the elements; null where they are not.
+  [[nodiscard]] virtual const Field* whole_field() const { return nullptr; }
   /// Finds the elements anew after this field's active cells, or the bodies that cut them, have changed.
   virtual void update(const Field& field) { (void)field; }
   /// For messages: "cells of field 'water'".

@@ -23,8 +23,9 @@ const double* ElementEvaluator::Operators::of(Shape shape) const {
   return nullptr;
 }
 
-ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms)
-    : domain_(&domain) {
+ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms,
+                                   Role role)
+    : domain_(&domain), role_(role) {
   dim_ = domain.fields().front()->mesh().dimension();
   find_parts(domain, terms);
   operators_.resize(parts_.size());
@@ -54,6 +55,9 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
         operators.needs_gradient |= slot.shape == Shape::gradient || slot.shape == Shape::normal_derivative;
         operators.needs_normal |= slot.shape == Shape::normal_derivative;
         operators.needs_second_normal |= slot.shape == Shape::second_normal_derivative;
+        if (moving_part_ >= 0 && operators.needs_normal)
+          throw std::logic_error("a term on " + domain.description() +
+                                 " reads normal derivatives: use gradient and normal where points move");
         level_used_[static_cast<int>(slot.level)] = true;
       }
     terms_.push_back(std::move(compiled));
@@ -63,36 +67,54 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
 void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms) {
   const std::vector<Field*> fields = domain.fields();
   for (const BoundTerm& bound : terms)
-    for (const Operand& operand : bound.operands) {
-      Field& field = *fields.at(operand.side);
-      const int b = field.place(operand.unknown).block;
-      const bool known = std::any_of(parts_.begin(), parts_.end(),
-                                     [&](const Part& p) { return p.side == operand.side && p.block == b; });
-      if (known) continue;
-      Block& block = field.blocks()[b];
-      const int nodes = block.space->nodes_per_cell();
-      parts_.push_back({operand.side, b, &block, nodes, (nodes + 3) / 4 * 4, block.size, 0});
-    }
+    for (const Operand& operand : bound.operands) add_part(*fields.at(operand.side), operand);
+  if (const Operand* mover = role_ == Role::integrate_at_rest ? nullptr : domain.mover()) {
+    Field& body = *fields.at(mover->side);
+    moving_part_ = add_part(body, *mover);
+    moving_offset_ = body.place(mover->unknown).offset;
+  }
   for (Part& part : parts_) {
     part.offset = size_;
     size_ += part.stride * part.components;
   }
 }
 
+/// The part of an operand's block, which is added if it is new.
+int ElementEvaluator::add_part(Field& field, const Operand& operand) {
+  const int b = field.place(operand.unknown).block;
+  const auto known = std::find_if(parts_.begin(), parts_.end(),
+                                  [&](const Part& p) { return p.side == operand.side && p.block == b; });
+  if (known != parts_.end()) return static_cast<int>(known - parts_.begin());
+  Block& block = field.blocks()[b];
+  const int nodes = block.space->nodes_per_cell();
+  parts_.push_back({operand.side, b, &block, nodes, (nodes + 3) / 4 * 4, block.size, 0});
+  return static_cast<int>(parts_.size()) - 1;
+}
+
 void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent) {
   domain_->fill(index, element_);
-  compute_operators();
-  gather();
   residual_.assign(size_, 0.0);
   magnitude_.assign(size_, 0.0);
   if (with_tangent) matrix_.assign(static_cast<std::size_t>(size_) * size_, 0.0);
+  moves_now_ = with_tangent && moving_part_ >= 0 && !at.initial_rates;
+  if (role_ == Role::sweep && !moves_now_) return;
+  compute_operators();
+  gather();
+  if (moves_now_) compute_reference_motion();
   for (const Compiled& term : terms_) {
     compute_inputs(term);
+    if (role_ == Role::sweep) {
+      evaluate(term, at, false);
+      add_sweep(term);
+      continue;
+    }
+    if (moves_now_ && term.signature->follows_motion) compute_input_change(term);
     evaluate(term, at, with_tangent);
     add_residual(term);
     if (with_tangent && term.columns > 0) add_tangent(term);
+    if (moves_now_ && term.signature->follows_motion) add_motion_tangent(term);
   }
-  if (with_tangent) add_change_to_magnitude();
+  if (with_tangent && role_ != Role::sweep) add_change_to_magnitude();
 }
 
 void ElementEvaluator::add_change_to_magnitude() {
@@ -145,6 +167,8 @@ void ElementEvaluator::compute_operators() {
     }
     if (operators.needs_normal || operators.needs_second_normal)
       compute_normal_operators(static_cast<int>(p));
+    if (moves_now_ && role_ == Role::integrate && operators.needs_gradient)
+      compute_gradient_change(static_cast<int>(p));
   }
 }
 
@@ -235,10 +259,17 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   batch.step = at.step;
   batch.theta = at.theta;
   batch.level_factor = factors;
+  if (moves_now_ && with_tangent && term.signature->follows_motion) {
+    batch.moves = dim_ * dim_;
+    batch.position_change = element_.motion->position.data();
+    batch.normal_change = element_.motion->normal.data();
+    batch.input_change = input_change_.data();
+  }
+  const int columns = term.columns + batch.moves;
   point_residual_.resize(static_cast<std::size_t>(element_.points) * term.outputs);
-  point_tangent_.resize(point_residual_.size() * term.columns);
+  point_tangent_.resize(point_residual_.size() * columns);
   term.term->evaluate(batch, point_residual_.data(),
-                      with_tangent && term.columns > 0 ? point_tangent_.data() : nullptr);
+                      with_tangent && columns > 0 ? point_tangent_.data() : nullptr);
 }
 
 void ElementEvaluator::add_residual(const Compiled& term) {
@@ -287,6 +318,7 @@ void ElementEvaluator::add_tangent(const Compiled& term) {
   work_.points = element_.points;
   work_.weight = element_.weight.data();
   work_.tangent = point_tangent_.data();
+  work_.tangent_columns = term.columns + (moves_now_ && term.signature->follows_motion ? dim_ * dim_ : 0);
   work_.first_column = first;
   work_.width = end - first;
   work_.matrix = matrix_.data();

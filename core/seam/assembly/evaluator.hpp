@@ -32,9 +32,20 @@ struct BoundTerm {
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
 /// by part (one per side and block in use), then component, then node, padded: component-major, so that the
 /// inner loops run over nodes in full vector registers.
+///
+/// Where the domain's points move with a body, the tangent says how the integrals change with them: points,
+/// weights, normals and the traces of all sides there are differentiated with respect to the body's nodes.
 class ElementEvaluator {
  public:
-  ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
+  /// What the elements are to the terms.
+  enum class Role {
+    integrate,          ///< the terms are integrated over the elements
+    integrate_at_rest,  ///< the same, but how the points move is left out of the tangent
+    sweep  ///< the elements bound a volume over which the terms are integrated: only the tangent's part that
+           ///< stems from the elements' sweeping over that volume is computed
+  };
+  ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms,
+                   Role role = Role::integrate);
 
   /// One block on one side.
   struct Part {
@@ -82,11 +93,15 @@ class ElementEvaluator {
     std::vector<double> gradient;   ///< [point][direction][stride]
     std::vector<double> normal;     ///< [point][stride]
     std::vector<double> second_normal;
+    /// Derivatives of the gradient with respect to the reference coordinates of the point,
+    /// [point][reference direction][direction][stride].
+    std::vector<double> gradient_change;
     bool needs_gradient = false, needs_normal = false, needs_second_normal = false;
     [[nodiscard]] const double* of(Shape shape) const;
   };
 
   void find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
+  int add_part(Field& field, const Operand& operand);
   void compute_operators();
   void compute_normal_operators(int part);
   void gather();
@@ -95,6 +110,16 @@ class ElementEvaluator {
   void evaluate(const Compiled& term, const TimePoint& at, bool with_tangent);
   void add_residual(const Compiled& term);
   void add_tangent(const Compiled& term);
+
+  // What moving points add (evaluator_motion.cpp).
+  void compute_gradient_change(int part);
+  void compute_reference_motion();
+  void compute_input_change(const Compiled& term);
+  /// Derivative of row i of a slot's shape functions with respect to reference coordinate j, [stride].
+  [[nodiscard]] const double* shape_change(const Slot& slot, int part, int point, int j, int i) const;
+  void add_motion_tangent(const Compiled& term);
+  void add_sweep(const Compiled& term);
+  void scatter_moves(int q, int row, int count, const double* rows);
 
   const IntegrationDomain* domain_;
   int dim_ = 2;
@@ -108,6 +133,11 @@ class ElementEvaluator {
   bool level_used_[5] = {true, false, false, false, false};
   std::vector<double> inputs_, point_residual_, point_tangent_, scratch_, change_;
   Contraction work_;
+  Role role_;
+  bool moves_now_ = false;  ///< the element under work is differentiated with respect to its points' motion
+  int moving_part_ = -1, moving_offset_ = 0;           ///< where the unknown that moves the points is
+  std::vector<std::vector<double>> reference_motion_;  ///< [side][point][reference direction][move]
+  std::vector<double> input_change_, swept_;
   std::vector<double> residual_, magnitude_, matrix_;
 };
 

@@ -101,6 +101,7 @@ void shake(Problem& problem, const TimePoint& at) {
     for (const int r : unknowns[u].rows) move[r] = scales[u] * part(generator);
   problem.assembler().add_increment(move, 1.0);
   problem.update_rates(at);
+  problem.update_spaces(at);
 }
 
 /// The unknown whose equations differ most.
@@ -135,7 +136,7 @@ std::vector<double> unknown_scales(const Problem& problem) {
   return scales;
 }
 
-TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at) {
+TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at, bool spaces_follow) {
   constexpr int directions = 3;
   const Problem::Snapshot here = problem.snapshot();
   assembler.assemble(at, true);
@@ -149,11 +150,19 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
     for (int k = 0; k < directions; ++k) {
       std::vector<double> direction(assembler.matrix().rows, 0.0), exact(direction.size());
       for (const int r : unknowns[u].rows) direction[r] = scales[u] * part(generator);
+      if (spaces_follow) {
+        problem.restore(here);
+        problem.update_spaces(at);
+        assembler.assemble(at, true);
+      }
       multiply(assembler.matrix(), direction, exact);
       const auto residual_at = [&](double step) {
         problem.restore(here);
+        if (spaces_follow) problem.update_spaces(at);  // and with them the numbering of the direction
         assembler.add_increment(direction, step);
         problem.update_rates(at);
+        if (spaces_follow && problem.update_spaces(at) == SpaceChange::unknowns)
+          return std::vector<double>(direction.size(), std::nan(""));
         assembler.assemble(at, false);
         return assembler.residual();
       };
@@ -167,6 +176,7 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
       if (best.relative > worst.relative) worst = {best.relative, best.block + " by " + unknowns[u].name};
     }
   problem.restore(here);
+  if (spaces_follow) problem.update_spaces(at);
   return worst;
 }
 
@@ -174,16 +184,16 @@ std::vector<ConformanceCheck> check_tangents(Problem& problem, const TimePoint& 
   free_prescribed(problem);
   shake(problem, at);
   std::vector<ConformanceCheck> checks{
-      tangent_check("whole system", tangent_error(problem, problem.assembler(), at))};
+      tangent_check("whole system", tangent_error(problem, problem.assembler(), at, true))};
   std::vector<Field*> fields;
   for (FieldEntry& entry : problem.fields()) fields.push_back(entry.field.get());
   for (const auto& [domain, terms] : problem.domains())
     for (const BoundTerm& term : terms) {
       Assembler alone(fields, problem.communicator());
-      alone.add(domain, {term});
+      alone.add(domain, {term}, ElementEvaluator::Role::integrate_at_rest);
       alone.rebuild();
       checks.push_back(tangent_check(fmt::format("{} on {}", term_name(*term.term), domain->description()),
-                                     tangent_error(problem, alone, at)));
+                                     tangent_error(problem, alone, at, false)));
     }
   return checks;
 }

@@ -21,7 +21,9 @@ std::vector<double> unknown_scales(const Problem& problem);
 
 /// Compares the tangent with finite differences of the residual at the present states, in several random
 /// directions of each unknown. Prescribed unknowns must have been freed. One rank only.
-TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at);
+/// @param spaces_follow cuts follow the bodies that move, as far as no unknown comes or goes; the assembler
+/// must be the problem's own
+TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at, bool spaces_follow);
 
 /// Frees all prescribed unknowns, shakes the present states at random, and checks the tangent of the whole
 /// system and of each term. The problem is of no use for solving afterwards. One rank only.

@@ -7,7 +7,8 @@
 
 namespace seam {
 
-CutBoundary::CutBoundary(Field& field, int body, int degree) : field_(&field), body_(body), degree_(degree) {
+CutBoundary::CutBoundary(Field& field, const FieldCut& cut, int body, int degree)
+    : field_(&field), cut_(&cut), body_(body), degree_(degree) {
   // Tensor cells count the degree per direction; along an oblique facet the directions add up.
   const CellType type = field.mesh().type();
   if (type == CellType::quadrilateral || type == CellType::hexahedron) degree_ *= field.mesh().dimension();
@@ -18,14 +19,15 @@ void CutBoundary::update(const Field& field) {
   pieces_.clear();
   if (!field.cut()) return;
   InterfaceRule rule;
+  InterfaceMotion motion;
   for (const int cell : field.cut()->cut_cells()) {
     if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
-    field.cut()->interface_rule(cell, degree_, rule);
-    add_pieces(cell, rule);
+    field.cut()->interface_rule(cell, degree_, rule, mover() ? &motion : nullptr);
+    add_pieces(cell, rule, motion);
   }
 }
 
-void CutBoundary::add_pieces(int cell, const InterfaceRule& rule) {
+void CutBoundary::add_pieces(int cell, const InterfaceRule& rule, const InterfaceMotion& motion) {
   const auto dim = static_cast<std::size_t>(field_->mesh().dimension());
   std::map<int, std::vector<int>> points;  // by group
   for (int q = 0; q < rule.count(); ++q)
@@ -34,6 +36,7 @@ void CutBoundary::add_pieces(int cell, const InterfaceRule& rule) {
     Piece& piece = pieces_.emplace_back();
     piece.cell = cell;
     piece.group = group;
+    piece.trace_size = cut_->trace_size(cell);
     std::vector<double> reference;
     for (const int q : of_group) {
       piece.weight.push_back(rule.weight[q]);
@@ -44,7 +47,7 @@ void CutBoundary::add_pieces(int cell, const InterfaceRule& rule) {
       }
     }
     piece.fill(*field_, reference, true);
-    add_partner(piece, rule, of_group);
+    add_partner(piece, rule, motion, of_group);
   }
 }
 
@@ -59,8 +62,8 @@ void CutBoundary::fill(int index, Element& element) const {
   side.map_geometry();
   element.weight = piece.weight;
   element.normal = piece.normal;
-  element.set_sizes(side.diameter,
-                    field_->mesh().volume(piece.cell) / field_->cut()->interface_area(piece.cell));
+  element.set_sizes(side.diameter, piece.trace_size);
+  element.motion = mover() ? &piece.motion : nullptr;
 }
 
 const int* CutBoundary::nodes(int index, int, int block) const {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "seam/assembly/domains.hpp"
-#include "seam/cut/cut_mesh.hpp"
+#include "seam/cut/field_cut.hpp"
 #include "seam/interface/remote_cells.hpp"
 
 namespace seam {
@@ -13,9 +13,10 @@ namespace seam {
 /// The part of a body's surface that bounds a field whose mesh it cuts, piece by piece. Side 0 is that field.
 class CutBoundary : public IntegrationDomain {
  public:
-  /// @param body its number in the field's FieldCut
+  /// @param cut the bodies that cut the field's mesh
+  /// @param body its number among them
   /// @param degree to integrate exactly, as the field's cells count it
-  CutBoundary(Field& field, int body, int degree);
+  CutBoundary(Field& field, const FieldCut& cut, int body, int degree);
   [[nodiscard]] int size() const override { return static_cast<int>(pieces_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
   void fill(int index, Element& element) const override;
@@ -29,6 +30,8 @@ class CutBoundary : public IntegrationDomain {
     int group = 0;
     std::vector<double> normal;  ///< [point][dimension], out of the field
     CutTables partner;           ///< of side 1
+    double trace_size = 0;
+    PointMotion motion;  ///< where mover() says so
   };
   /// Points of facets of different groups belong to different elements.
   [[nodiscard]] virtual int group(int facet) const {
@@ -36,14 +39,17 @@ class CutBoundary : public IntegrationDomain {
     return 0;
   }
   /// Sets up side 1 of a piece. @param points of the rule that belong to it
-  virtual void add_partner(Piece& piece, const InterfaceRule& rule, const std::vector<int>& points) const {
-    (void)piece, (void)rule, (void)points;
+  /// @param motion of the rule's points; empty unless mover() says that they move
+  virtual void add_partner(Piece& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
+                           const std::vector<int>& points) const {
+    (void)piece, (void)rule, (void)motion, (void)points;
   }
   [[nodiscard]] const Piece& piece(int index) const { return pieces_[index]; }
 
  private:
-  void add_pieces(int cell, const InterfaceRule& rule);
+  void add_pieces(int cell, const InterfaceRule& rule, const InterfaceMotion& motion);
   Field* field_;
+  const FieldCut* cut_;
   int body_, degree_;
   std::vector<Piece> pieces_;
 };

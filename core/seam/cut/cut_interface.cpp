@@ -88,7 +88,8 @@ std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) co
   Field& field = *setup.sides[0];
   FieldCut::Body moving =
       moving_body([&](const std::string& name) { return setup.mesh(name); }, field.mesh().dimension());
-  return std::make_shared<CutBoundary>(field, setup.cut(0).add_body(std::move(moving)), setup.degree);
+  FieldCut& cut = setup.cut(0);
+  return std::make_shared<CutBoundary>(field, cut, cut.add_body(std::move(moving)), setup.degree);
 }
 
 }  // namespace seam

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seam/cut/fluid_parts.hpp"
+#include "seam/cut/interface_motion.hpp"
 #include "seam/cut/surface.hpp"
 #include "seam/mesh/mesh.hpp"
 
@@ -69,7 +70,8 @@ class CutMesh {
   /// coordinates of an affine cell.
   void volume_rule(int cell, int degree, CutRule& rule) const;
   /// Rule for the interface in a cut cell, exact for polynomials of total degree `degree` on each piece.
-  void interface_rule(int cell, int degree, InterfaceRule& rule) const;
+  /// @param motion where not null: how the rule changes as facets move
+  void interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion = nullptr) const;
   /// Rule for the fluid part of one face of a cut cell; empty where the face is dry.
   void face_rule(int cell, int face, int degree, CutRule& rule) const;
 

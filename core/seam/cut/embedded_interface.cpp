@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "seam/cut/cut_boundary.hpp"
 #include "seam/cut/field_cut.hpp"
@@ -34,6 +35,8 @@ class BodySurface {
     }
     cells_ = fetch_cells(body, cells);
     for (const int node : boundary_.node) node_.push_back(space.local_node(node));
+    mover_ = {1, displacement};
+    find_places();
   }
 
   /// As it is deformed now.
@@ -47,6 +50,11 @@ class BodySurface {
             block.now.value[static_cast<std::size_t>(node_[k]) * block.size + place_.offset + d];
     return surface;
   }
+  [[nodiscard]] const Operand& mover() const { return mover_; }
+  /// Which nodes of the cell behind a facet the facet's vertices are, [dimension].
+  [[nodiscard]] const int* places(int facet) const {
+    return &place_in_cell_[static_cast<std::size_t>(facet) * body_->mesh().dimension()];
+  }
   [[nodiscard]] Field& body() const { return *body_; }
   /// Number of the cell behind a facet, among those of the surface.
   [[nodiscard]] int group(int facet) const { return group_[facet]; }
@@ -54,32 +62,67 @@ class BodySurface {
   /// Reference coordinates, in the cell behind a facet, of a point on it.
   /// @param on_facet the facet's own coordinates, [dimension - 1]
   void to_cell(int facet, const double* on_facet, std::vector<double>& reference) const {
-    const CellTopology& cell = topology(body_->mesh().type());
-    const int dim = cell.dimension;
-    const int* corners = &boundary_.local[static_cast<std::size_t>(facet) * dim];
-    const auto corner = [&](int k, int d) {
-      return cell.node_coordinates[static_cast<std::size_t>(corners[k]) * dim + d];
-    };
+    const int dim = body_->mesh().dimension();
     for (int d = 0; d < dim; ++d) {
-      double x = corner(0, d);
-      for (int k = 1; k < dim; ++k) x += on_facet[k - 1] * (corner(k, d) - corner(0, d));
+      double x = corner(facet, 0, d);
+      for (int k = 1; k < dim; ++k) x += on_facet[k - 1] * edge(facet, k, d);
       reference.push_back(x);
     }
   }
+  /// The same for a point's motions relative to the facet. @param on_facet [dimension - 1][move]
+  void motion_to_cell(int facet, const double* on_facet, std::vector<double>& reference) const {
+    const int dim = body_->mesh().dimension(), moves = dim * dim;
+    for (int d = 0; d < dim; ++d)
+      for (int m = 0; m < moves; ++m) {
+        double x = 0;
+        for (int k = 1; k < dim; ++k) x += on_facet[(k - 1) * moves + m] * edge(facet, k, d);
+        reference.push_back(x);
+      }
+  }
 
  private:
+  /// Reference coordinate d of vertex k of a facet, and of the way to it from vertex 0.
+  [[nodiscard]] double corner(int facet, int k, int d) const {
+    const CellTopology& cell = topology(body_->mesh().type());
+    const int node = boundary_.local[static_cast<std::size_t>(facet) * cell.dimension + k];
+    return cell.node_coordinates[static_cast<std::size_t>(node) * cell.dimension + d];
+  }
+  [[nodiscard]] double edge(int facet, int k, int d) const {
+    return corner(facet, k, d) - corner(facet, 0, d);
+  }
+  void find_places();
+
   Field* body_;
   BodyBoundary boundary_;
   Field::Place place_;
   std::vector<int> group_;  ///< [facet]
   std::vector<RemoteCell> cells_;
-  std::vector<int> node_;  ///< [point]: local node
+  std::vector<int> node_;           ///< [point]: local node
+  std::vector<int> place_in_cell_;  ///< [facet][dimension]
+  Operand mover_;
 };
+
+void BodySurface::find_places() {
+  const int dim = body_->mesh().dimension();
+  const Space& space = *body_->blocks()[place_.block].space;
+  for (int facet = 0; facet < boundary_.surface.facet_count(); ++facet) {
+    const std::vector<int>& nodes = cells_[group_[facet]].nodes[place_.block];
+    for (int k = 0; k < dim; ++k) {
+      const int node = node_[boundary_.surface.facets[static_cast<std::size_t>(facet) * dim + k]];
+      const auto place = std::find(nodes.begin(), nodes.end(), node);
+      if (place == nodes.end() || place - nodes.begin() >= space.nodes_per_cell())
+        throw std::logic_error("a facet's vertex is no node of the cell behind it");
+      place_in_cell_.push_back(static_cast<int>(place - nodes.begin()));
+    }
+  }
+}
 
 class EmbeddedBoundary final : public CutBoundary {
  public:
-  EmbeddedBoundary(Field& field, int body, int degree, std::shared_ptr<const BodySurface> surface)
-      : CutBoundary(field, body, degree), surface_(std::move(surface)) {}
+  EmbeddedBoundary(Field& field, const FieldCut& cut, int body, int degree,
+                   std::shared_ptr<const BodySurface> surface)
+      : CutBoundary(field, cut, body, degree), surface_(std::move(surface)) {}
+  [[nodiscard]] const Operand* mover() const override { return &surface_->mover(); }
   [[nodiscard]] std::vector<Field*> fields() const override {
     return {CutBoundary::fields().front(), &surface_->body()};
   }
@@ -101,12 +144,25 @@ class EmbeddedBoundary final : public CutBoundary {
 
  private:
   [[nodiscard]] int group(int facet) const override { return surface_->group(facet); }
-  void add_partner(Piece& piece, const InterfaceRule& rule, const std::vector<int>& points) const override {
-    const auto on_facet = static_cast<std::size_t>(surface_->body().mesh().dimension() - 1);
+  void add_partner(Piece& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
+                   const std::vector<int>& points) const override {
+    const auto dim = static_cast<std::size_t>(surface_->body().mesh().dimension()), moves = dim * dim;
     std::vector<double> reference;
-    for (const int q : points)
-      surface_->to_cell(rule.facet[q], &rule.facet_reference[static_cast<std::size_t>(q) * on_facet],
-                        reference);
+    PointMotion& moving = piece.motion;
+    for (const int q : points) {
+      const int facet = rule.facet[q];
+      const auto at = static_cast<std::size_t>(q);
+      surface_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], reference);
+      surface_->motion_to_cell(facet, &motion.facet_reference[at * (dim - 1) * moves], moving.reference);
+      const int* places = surface_->places(facet);
+      moving.node.insert(moving.node.end(), places, places + dim);
+      const auto copy = [&](const std::vector<double>& from, std::size_t size, std::vector<double>& to) {
+        to.insert(to.end(), &from[at * size], &from[at * size] + size);
+      };
+      copy(motion.position, dim * moves, moving.position);
+      copy(motion.normal, dim * moves, moving.normal);
+      copy(motion.relative_weight, moves, moving.relative_weight);
+    }
     piece.partner.weight = piece.weight;
     piece.partner.fill(surface_->body(), reference, true);
   }
@@ -131,8 +187,9 @@ std::shared_ptr<IntegrationDomain> EmbeddedInterface::build(InterfaceSetup& setu
                             parameters_.text("body")));
   auto surface =
       std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"), displacement);
-  const int number = setup.cut(0).add_body([surface](double) { return surface->now(); });
-  return std::make_shared<EmbeddedBoundary>(*setup.sides[0], number, setup.degree, surface);
+  FieldCut& cut = setup.cut(0);
+  const int number = cut.add_body([surface](double) { return surface->now(); });
+  return std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, setup.degree, surface);
 }
 
 }  // namespace seam

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/field_cut.hpp"
 
+#include <cmath>
+
 namespace seam {
 namespace {
 
@@ -36,10 +38,18 @@ bool FieldCut::update(double time) {
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
   dropped_volume_ = mesh_.drop(decides ? decide() : follow_decision());
+  if (decides) area_.clear();
+  for (const int c : mesh_.cut_cells()) area_.try_emplace(c, mesh_.interface_area(c));
   for (int c = 0; c < field_->mesh().cells(); ++c) active_[c] = mesh_.state(c) != CellState::body ? 1 : 0;
   field_->occupy(active_, &mesh_);
   extension_.extend();
   return true;
+}
+
+double FieldCut::trace_size(int cell) const {
+  constexpr double least_area = 0.25;  // of a cell's face
+  const double volume = mesh_.cell_volume(cell), dim = field_->mesh().dimension();
+  return volume / std::max(area_.at(cell), least_area * std::pow(volume, (dim - 1) / dim));
 }
 
 /// Per part.

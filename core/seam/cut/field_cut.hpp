@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ class FieldCut {
   bool update(double time);
 
   [[nodiscard]] const CutMesh& mesh() const { return mesh_; }
+  /// Length of a cut cell that scales Nitsche penalties: its volume over the area of the interface in it, as
+  /// it was when a body first cut the cell in this step, so that it need not be differentiated. Where the
+  /// interface just clips a corner the length stays below four cells.
+  [[nodiscard]] double trace_size(int cell) const;
   /// True when nodes are active whose states are not known, as after a failed step was rewound. Collective.
   [[nodiscard]] bool has_new_nodes() const { return !states_match(); }
   /// Per local cell.
@@ -65,6 +70,7 @@ class FieldCut {
   bool is_first_cut_ = false;       ///< the present cut is the one that decided
   double time_ = 0;                 ///< of the last update
   double dropped_volume_ = 0;
+  std::map<int, double> area_;  ///< of the interface in cells, when first cut in the step
   Extension extension_;
 };
 

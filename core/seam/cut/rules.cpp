@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "seam/cut/cell_map.hpp"
 #include "seam/cut/fitted_rule.hpp"
 #include "seam/cut/geometry.hpp"
 #include "seam/cut/moments.hpp"
+#include "seam/cut/piece_motion.hpp"
 #include "seam/mesh/lagrange.hpp"
 #include "seam/mesh/quadrature.hpp"
 
@@ -91,12 +93,13 @@ void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule) const {
     face_to_cell(shape, face, &fitted.points()[q * (dim - 1)], &rule.reference[q * dim]);
 }
 
-void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule) const {
+void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion) const {
   const CutCell& cut = geometry_->at(cell);
   const int dim = mesh_->dimension();
   const CellMap map(*mesh_, cell);
   const Quadrature& base = quadrature(dim == 2 ? CellType::segment : CellType::triangle, degree);
   clear(rule);
+  if (motion) *motion = {};
   const auto add = [&](const Piece& piece, const Vector& position, double weight) {
     Vector reference = map.to_reference(position), x = position;
     if (piece.handed_over) {
@@ -114,13 +117,17 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule) const {
   };
   for (const Piece& piece : cut.pieces) {
     const Vector* x = &cut.points[piece.first];
+    std::optional<PieceMotion> moving;
+    if (motion) moving.emplace(geometry_->outline, cut, piece, geometry_->bodies[piece.body]);
     for (int k = 1; k + (dim == 3 ? 1 : 0) < piece.count; ++k) {
       const Vector &a = x[k], &b = x[dim == 3 ? k + 1 : k];
       const double area = -piece.scale * dot(vector_area(dim, x[0], a, b), piece.normal);
       if (area == 0) continue;
       for (int q = 0; q < base.count(); ++q) {
         const double* s = &base.points[q * base.dimension];
-        const Vector position = x[0] + s[0] * (a - x[0]) + (dim == 3 ? s[1] : 0.0) * (b - x[0]);
+        const double second = dim == 3 ? s[1] : 0.0;
+        const Vector position = x[0] + s[0] * (a - x[0]) + second * (b - x[0]);
+        if (moving) moving->append({0, k, dim == 3 ? k + 1 : k}, {1 - s[0] - second, s[0], second}, *motion);
         add(piece, position, area * base.weights[q] * (dim == 3 ? 2 : 1));
       }
     }

@@ -37,8 +37,8 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   read_time();
   build_fields(registry);
   build_couplings(registry);
-  problem_.finish(time_.start);
   const Parameters& solver = scene.root.object("solver");
+  problem_.finish(time_.start, solver.object("newton").boolean("shape_derivatives"));
   linear_ = registry.create<LinearSolver>("linear_solver", solver.object("linear"));
   const Parameters& newton = solver.object("newton");
   newton_ = std::make_unique<Newton>(

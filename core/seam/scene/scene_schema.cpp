@@ -53,6 +53,11 @@ Schema solver_schema() {
       .at_most(1000)
       .otherwise("25");
   newton.boolean("damping", "shorten updates that make the residual grow").otherwise("true");
+  newton
+      .boolean("shape_derivatives",
+               "differentiate cuts with respect to the bodies that make them; without, each iteration takes "
+               "the cut as fixed")
+      .otherwise("true");
 
   Schema schema("How the equations are solved.");
   schema.object("newton", "the nonlinear iteration", newton).otherwise("{}");

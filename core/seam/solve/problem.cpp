@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "seam/solve/field_builder.hpp"
 #include "seam/solve/level.hpp"
@@ -54,7 +55,7 @@ FieldCut& Problem::cut(FieldEntry& entry) {
   return *entry.cut;
 }
 
-void Problem::finish(double time) {
+void Problem::finish(double time, bool shape_derivatives) {
   std::vector<Field*> fields;
   for (FieldEntry& entry : fields_) {
     for (const PrescribedCondition& condition : entry.conditions) {
@@ -70,8 +71,24 @@ void Problem::finish(double time) {
   }
   update_cuts(time_point(time, 0, 1));
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
-  for (const auto& [domain, terms] : domains_) assembler_->add(domain, terms);
+  using Role = ElementEvaluator::Role;
+  for (const auto& [domain, terms] : domains_)
+    assembler_->add(domain, terms, shape_derivatives ? Role::integrate : Role::integrate_at_rest);
+  if (shape_derivatives) add_swept_volumes();
   assembler_->rebuild();
+}
+
+/// An interface that moves with a body sweeps over the volume of the field that it bounds.
+void Problem::add_swept_volumes() {
+  std::set<const IntegrationDomain*> done;
+  for (const auto& [surface, couplings] : domains_) {
+    if (!surface->mover() || !done.insert(surface.get()).second) continue;
+    std::vector<BoundTerm> swept;
+    for (const auto& [volume, terms] : domains_)
+      if (volume->whole_field() == surface->fields().front())
+        swept.insert(swept.end(), terms.begin(), terms.end());
+    assembler_->add(surface, swept, ElementEvaluator::Role::sweep);
+  }
 }
 
 FieldEntry& Problem::field(const std::string& name) {

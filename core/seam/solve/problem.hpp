@@ -98,8 +98,11 @@ class Problem {
   /// The bodies that cut a field's mesh: to add one, before finish().
   FieldCut& cut(FieldEntry& entry);
 
-  /// Call once everything is added. Collective. @param time at which bodies cut meshes first
-  void finish(double time = 0);
+  /// Call once everything is added. Collective.
+  /// @param time at which bodies cut meshes first
+  /// @param shape_derivatives the tangent says how interfaces move with bodies; without, the cut counts as
+  /// fixed in each iteration
+  void finish(double time = 0, bool shape_derivatives = true);
 
   [[nodiscard]] Assembler& assembler() { return *assembler_; }
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
@@ -148,6 +151,7 @@ class Problem {
  private:
   void set_prescribed(double time);
   SpaceChange update_cuts(const TimePoint& at);
+  void add_swept_volumes();
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;

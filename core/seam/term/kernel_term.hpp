@@ -27,6 +27,11 @@
 ///     }
 ///   };
 ///
+/// A coupling kernel whose points may move with a body takes its point as `const seam::Point<dim, G>&` with a
+/// third template parameter G: then position and normal carry derivatives, too, and the tangent is exact
+/// where the interface follows the body. With Point<dim> the term's dependence on where its points are is
+/// left out.
+///
 /// The weak form is the sum over all test functions of coefficient times test function (or its gradient),
 /// integrated: here (grad dc, D grad c). The tangent follows by automatic differentiation.
 namespace seam {
@@ -100,6 +105,7 @@ struct Slots {
 /// Where the term is evaluated. Geometry is of type G: double where the domain is fixed.
 template <int dim, class G = double>
 struct Point {
+  using Geometry = G;
   Vec<dim, G> position;  ///< m
   Vec<dim, G> normal;    ///< outward unit normal of side 0; zero in cell terms
   double cell_size = 0;  ///< m, diameter of side 0's cell; of the larger cell at a face between two
@@ -251,9 +257,9 @@ Signature signature_of(Reads, Tests, int dim) {
   return s;
 }
 
-template <int dim>
-Point<dim> point(const PointBatch& b, int q) {
-  Point<dim> p;
+template <int dim, class G = double>
+Point<dim, G> point(const PointBatch& b, int q) {
+  Point<dim, G> p;
   for (int i = 0; i < dim; ++i) {
     p.position[i] = b.position[q * dim + i];
     p.normal[i] = b.normal ? b.normal[q * dim + i] : 0.0;
@@ -266,6 +272,13 @@ Point<dim> point(const PointBatch& b, int q) {
   return p;
 }
 
+template <class Kernel, int dim, class T>
+concept FollowsMotion = requires(const Kernel& kernel, const Point<dim, T>& point,
+                                 const Trial<dim, T, typename Kernel::Reads>& trial,
+                                 Test<dim, T, typename Kernel::Tests>& test) {
+  kernel.template operator()<dim, T>(point, trial, test);
+};
+
 }  // namespace detail
 
 /// Makes a Term of a kernel.
@@ -277,7 +290,9 @@ class KernelTerm final : public Term {
   explicit KernelTerm(Kernel kernel, int extra_degree = 0)
       : kernel_(std::move(kernel)),
         extra_degree_(extra_degree),
-        signatures_{detail::signature_of(Reads{}, Tests{}, 2), detail::signature_of(Reads{}, Tests{}, 3)} {}
+        signatures_{detail::signature_of(Reads{}, Tests{}, 2), detail::signature_of(Reads{}, Tests{}, 3)} {
+    for (Signature& signature : signatures_) signature.follows_motion = follows_motion;
+  }
 
   [[nodiscard]] const Signature& signature(int dimension) const override {
     return signatures_[dimension - 2];
@@ -293,6 +308,7 @@ class KernelTerm final : public Term {
  private:
   using Reads = typename Kernel::Reads;
   using Tests = typename Kernel::Tests;
+  static constexpr bool follows_motion = detail::FollowsMotion<Kernel, 2, Fad<1>>;
 
   /// First derivative index of a read: reads of one operand and shape share theirs. -1 for old states.
   template <int dim, class R, class... Q>
@@ -324,7 +340,7 @@ class KernelTerm final : public Term {
   template <int dim>
   void evaluate_in(const PointBatch& points, double* residual, double* tangent) const {
     constexpr int in = Reads::size(dim), out = Tests::size(dim), columns = derivative_count<dim>(Reads{});
-    if (!tangent || columns == 0) {
+    if (!tangent || (columns == 0 && points.moves == 0)) {
       for (int q = 0; q < points.count; ++q) {
         double* r = residual + q * out;
         std::fill_n(r, out, 0.0);
@@ -334,7 +350,15 @@ class KernelTerm final : public Term {
       }
       return;
     }
-    using T = Fad<std::max(columns, 1)>;
+    if constexpr (follows_motion)
+      if (points.moves > 0) return differentiate<dim, columns, dim * dim>(points, residual, tangent);
+    if constexpr (columns > 0) differentiate<dim, columns, 0>(points, residual, tangent);
+  }
+
+  template <int dim, int columns, int moves>
+  void differentiate(const PointBatch& points, double* residual, double* tangent) const {
+    constexpr int in = Reads::size(dim), out = Tests::size(dim);
+    using T = Fad<columns + moves>;
     for (int q = 0; q < points.count; ++q) {
       T input[std::max(in, 1)], output[out];
       Reads::for_each([&]<class R>(R) {
@@ -343,15 +367,32 @@ class KernelTerm final : public Term {
           input[from + i] = points.inputs[q * in + from + i];
           if constexpr (first >= 0)
             input[from + i].d[first + i] = points.level_factor[R::operand::index][static_cast<int>(R::level)];
+          for (int m = 0; m < moves; ++m)
+            input[from + i].d[columns + m] = points.input_change[(q * in + from + i) * moves + m];
         }
       });
       Test<dim, T, Tests> test{output};
-      kernel_.template operator()<dim, T>(detail::point<dim>(points, q), Trial<dim, T, Reads>{input}, test);
+      const Trial<dim, T, Reads> trial{input};
+      if constexpr (moves > 0)
+        kernel_.template operator()<dim, T>(moving_point<dim, T, columns>(points, q), trial, test);
+      else
+        kernel_.template operator()<dim, T>(detail::point<dim>(points, q), trial, test);
       for (int i = 0; i < out; ++i) {
         residual[q * out + i] = output[i].v;
-        for (int j = 0; j < columns; ++j) tangent[(q * out + i) * columns + j] = output[i].d[j];
+        std::copy_n(output[i].d, columns + moves, tangent + (q * out + i) * (columns + moves));
       }
     }
+  }
+  template <int dim, class T, int columns>
+  static Point<dim, T> moving_point(const PointBatch& points, int q) {
+    Point<dim, T> point = detail::point<dim, T>(points, q);
+    for (int i = 0; i < dim; ++i)
+      for (int m = 0; m < points.moves; ++m) {
+        const int k = (q * dim + i) * points.moves + m;
+        point.position[i].d[columns + m] = points.position_change[k];
+        point.normal[i].d[columns + m] = points.normal_change[k];
+      }
+    return point;
   }
 
   Kernel kernel_;

@@ -40,6 +40,8 @@ struct Signature {
   std::vector<Slot> columns;
   /// For a quantity, which has no test functions: numbers per point.
   int values = 0;
+  /// Whether the term can be differentiated with respect to where its points are, too.
+  bool follows_motion = false;
 
   [[nodiscard]] int input_size(int dim) const { return size(inputs, dim); }
   [[nodiscard]] int output_size(int dim) const { return size(outputs, dim); }
@@ -67,6 +69,12 @@ struct PointBatch {
   double theta = 1.0;
   /// d(level)/d(now) of each operand for Level::now, rate, second_rate: what the time scheme makes of it.
   const double (*level_factor)[3] = nullptr;
+  /// Where points move with the nodes of a body and the tangent is to say how: the number of moves of a
+  /// point (the dimension squared), and the derivatives of what the term reads with respect to them.
+  int moves = 0;
+  const double* position_change = nullptr;  ///< [point][dimension][move]
+  const double* normal_change = nullptr;    ///< [point][dimension][move]
+  const double* input_change = nullptr;     ///< [point][Signature::inputs][move]
 };
 
 /// An integrand: coefficients of the test functions at a point and their derivatives. Implement it by writing
@@ -76,7 +84,8 @@ class Term {
   virtual ~Term() = default;
   [[nodiscard]] virtual const Signature& signature(int dimension) const = 0;
   /// @param residual [point][outputs], overwritten
-  /// @param tangent [point][outputs][columns], overwritten; null when only the residual is wanted
+  /// @param tangent [point][outputs][columns + PointBatch::moves], overwritten; null when only the residual
+  /// is wanted
   virtual void evaluate(const PointBatch& points, double* residual, double* tangent) const = 0;
   /// Polynomial degree the integrand adds to that of its shape functions; raises the quadrature.
   [[nodiscard]] virtual int extra_degree() const { return 0; }

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// How integrals over a surface that moves with a body change with the body's nodes.
+#include <stdexcept>
+
+#include "seam/assembly/evaluator.hpp"
+
+namespace seam {
+
+/// Derivatives of the physical gradient G = D J^-1 (D: reference gradient, J: the map's Jacobian):
+/// dG = (dD - G dJ) J^-1.
+void ElementEvaluator::compute_gradient_change(int p) {
+  const ElementSide& side = element_.sides[parts_[p].side];
+  const ShapeTable& table = *side.table[parts_[p].states->space->order() - 1];
+  const ShapeTable& map = *side.table[side.field->mesh().order() - 1];
+  Operators& operators = operators_[p];
+  const int n = table.stride;
+  operators.gradient_change.assign(static_cast<std::size_t>(element_.points) * dim_ * dim_ * n, 0.0);
+  for (int q = 0; q < element_.points; ++q)
+    for (int j = 0; j < dim_; ++j) {
+      double jacobian_change[3][3] = {};  // d(dx_i / dxi_k) / dxi_j
+      for (int i = 0; i < dim_; ++i)
+        for (int k = 0; k < dim_; ++k)
+          for (int a = 0; a < map.nodes; ++a)
+            jacobian_change[i][k] +=
+                map.hessian_at(q)[(k * dim_ + j) * map.stride + a] * side.geometry[a * dim_ + i];
+      double* to = &operators.gradient_change[(static_cast<std::size_t>(q) * dim_ + j) * dim_ * n];
+      for (int k = 0; k < dim_; ++k) {
+        const double* second = table.hessian_at(q) + static_cast<std::ptrdiff_t>(k * dim_ + j) * n;
+        for (int i = 0; i < dim_; ++i) {
+          const double inverse = side.inverse_jacobian[(static_cast<std::size_t>(q) * dim_ + k) * dim_ + i];
+          for (int a = 0; a < n; ++a) to[i * n + a] += inverse * second[a];
+          for (int l = 0; l < dim_; ++l) {
+            const double* gradient = &operators.gradient[(static_cast<std::size_t>(q) * dim_ + l) * n];
+            const double factor = inverse * jacobian_change[l][k];
+            for (int a = 0; a < n; ++a) to[i * n + a] -= factor * gradient[a];
+          }
+        }
+      }
+    }
+}
+
+/// How fast the points pass through the reference coordinates of each side. The body's side moves along: its
+/// points slide only as far as the cell's borders make them.
+void ElementEvaluator::compute_reference_motion() {
+  const int moves = dim_ * dim_;
+  const int body = domain_->mover()->side;
+  reference_motion_.resize(element_.sides.size());
+  for (std::size_t s = 0; s < element_.sides.size(); ++s) {
+    std::vector<double>& motion = reference_motion_[s];
+    if (static_cast<int>(s) == body) {
+      motion = element_.motion->reference;
+      continue;
+    }
+    const std::vector<double>& inverse = element_.sides[s].inverse_jacobian;
+    motion.assign(static_cast<std::size_t>(element_.points) * dim_ * moves, 0.0);
+    for (int q = 0; q < element_.points; ++q)
+      for (int j = 0; j < dim_; ++j)
+        for (int i = 0; i < dim_; ++i)
+          for (int m = 0; m < moves; ++m)
+            motion[(static_cast<std::size_t>(q) * dim_ + j) * moves + m] +=
+                inverse[(static_cast<std::size_t>(q) * dim_ + j) * dim_ + i] *
+                element_.motion->position[(static_cast<std::size_t>(q) * dim_ + i) * moves + m];
+  }
+}
+
+const double* ElementEvaluator::shape_change(const Slot& slot, int p, int q, int j, int i) const {
+  const Part& part = parts_[p];
+  if (slot.shape == Shape::value) {
+    const ShapeTable& table = *element_.sides[part.side].table[part.states->space->order() - 1];
+    return table.gradient_at(q) + static_cast<std::ptrdiff_t>(j) * part.stride;
+  }
+  return &operators_[p].gradient_change[((static_cast<std::size_t>(q) * dim_ + j) * dim_ + i) * part.stride];
+}
+
+void ElementEvaluator::compute_input_change(const Compiled& term) {
+  const int moves = dim_ * dim_;
+  input_change_.assign(static_cast<std::size_t>(element_.points) * term.inputs * moves, 0.0);
+  int at = 0;
+  for (const Slot& slot : term.signature->inputs) {
+    const BoundOperand& operand = term.operands[slot.operand];
+    const Part& part = parts_[operand.part];
+    const int r = rows(slot.shape, dim_), n = part.stride;
+    const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
+    const std::vector<double>& motion = reference_motion_[part.side];
+    for (int q = 0; q < element_.points; ++q)
+      for (int c = 0; c < operand.components; ++c)
+        for (int i = 0; i < r; ++i) {
+          double* to = &input_change_[(static_cast<std::size_t>(q) * term.inputs + at + c * r + i) * moves];
+          for (int j = 0; j < dim_; ++j) {
+            const double* change = shape_change(slot, operand.part, q, j, i);
+            double slope = 0;
+            for (int a = 0; a < n; ++a) slope += change[a] * values[c * n + a];
+            for (int m = 0; m < moves; ++m)
+              to[m] += slope * motion[(static_cast<std::size_t>(q) * dim_ + j) * moves + m];
+          }
+        }
+    at += operand.components * r;
+  }
+}
+
+/// Adds `count` rows of derivatives with respect to the moves of point q. @param rows [row][move]
+void ElementEvaluator::scatter_moves(int q, int row, int count, const double* rows) {
+  const Part& body = parts_[moving_part_];
+  const int* node = &element_.motion->node[static_cast<std::size_t>(q) * dim_];
+  for (int k = 0; k < dim_; ++k)
+    for (int c = 0; c < dim_; ++c) {
+      const int column = body.offset + (moving_offset_ + c) * body.stride + node[k];
+      for (int a = 0; a < count; ++a)
+        matrix_[static_cast<std::size_t>(row + a) * size_ + column] += rows[a * dim_ * dim_ + k * dim_ + c];
+    }
+}
+
+/// d(weight r N) = (weight dr + r dweight) N + weight r dN.
+void ElementEvaluator::add_motion_tangent(const Compiled& term) {
+  const int moves = dim_ * dim_, columns = term.columns + moves;
+  const PointMotion& motion = *element_.motion;
+  int at = 0;
+  for (const Slot& slot : term.signature->outputs) {
+    const BoundOperand& operand = term.operands[slot.operand];
+    const Part& part = parts_[operand.part];
+    const int r = rows(slot.shape, dim_), n = part.stride;
+    const double* shape = operators_[operand.part].of(slot.shape);
+    for (int q = 0; q < element_.points; ++q) {
+      const auto here = static_cast<std::size_t>(q);
+      for (int c = 0; c < operand.components; ++c) {
+        swept_.assign(static_cast<std::size_t>(n) * moves, 0.0);
+        for (int i = 0; i < r; ++i) {
+          const std::size_t out = here * term.outputs + at + c * r + i;
+          const double force = element_.weight[q] * point_residual_[out];
+          const double* row = shape + static_cast<std::ptrdiff_t>(here * r + i) * n;
+          double change[9];
+          for (int m = 0; m < moves; ++m)
+            change[m] = element_.weight[q] * point_tangent_[out * columns + term.columns + m] +
+                        force * motion.relative_weight[here * moves + m];
+          for (int a = 0; a < n; ++a)
+            for (int m = 0; m < moves; ++m) swept_[a * moves + m] += change[m] * row[a];
+          if (force == 0) continue;
+          for (int j = 0; j < dim_; ++j) {
+            const double* shape_slope = shape_change(slot, operand.part, q, j, i);
+            const double* speed = &reference_motion_[part.side][(here * dim_ + j) * moves];
+            for (int a = 0; a < n; ++a)
+              for (int m = 0; m < moves; ++m) swept_[a * moves + m] += force * shape_slope[a] * speed[m];
+          }
+        }
+        scatter_moves(q, part.offset + (operand.offset + c) * n, n, swept_.data());
+      }
+    }
+    at += operand.components * r;
+  }
+}
+
+/// An integral over a volume changes by its integrand on the moving surface times the surface's normal
+/// motion.
+void ElementEvaluator::add_sweep(const Compiled& term) {
+  const int moves = dim_ * dim_;
+  int at = 0;
+  for (const Slot& slot : term.signature->outputs) {
+    const BoundOperand& operand = term.operands[slot.operand];
+    const Part& part = parts_[operand.part];
+    const int r = rows(slot.shape, dim_), n = part.stride;
+    const double* shape = operators_[operand.part].of(slot.shape);
+    for (int q = 0; q < element_.points; ++q) {
+      const auto here = static_cast<std::size_t>(q);
+      double speed[9] = {};
+      for (int i = 0; i < dim_; ++i)
+        for (int m = 0; m < moves; ++m)
+          speed[m] += element_.weight[q] * element_.normal[here * dim_ + i] *
+                      element_.motion->position[(here * dim_ + i) * moves + m];
+      for (int c = 0; c < operand.components; ++c) {
+        swept_.assign(static_cast<std::size_t>(n) * moves, 0.0);
+        for (int i = 0; i < r; ++i) {
+          const double force = point_residual_[here * term.outputs + at + c * r + i];
+          const double* row = shape + static_cast<std::ptrdiff_t>(here * r + i) * n;
+          for (int a = 0; a < n && force != 0; ++a)
+            for (int m = 0; m < moves; ++m) swept_[a * moves + m] += force * row[a] * speed[m];
+        }
+        scatter_moves(q, part.offset + (operand.offset + c) * n, n, swept_.data());
+      }
+    }
+    at += operand.components * r;
+  }
+}
+
+}  // namespace seam
