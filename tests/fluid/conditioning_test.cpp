@@ -162,7 +162,7 @@ void write(const std::string& path, const std::vector<Sample>& samples) {
 
 }  // namespace
 
-TEST_CASE("condition and errors do not depend on where a disc lies in the mesh") {
+TEST_CASE("condition and errors do not depend on where a disc lies in the mesh", "[study]") {
   const auto [cell, order, stabilisation] = GENERATE(table<std::string, int, std::string>(
       {{"quadrilateral", 1, "cip"}, {"triangle", 1, "residual"}, {"quadrilateral", 2, "cip"}}));
   const std::vector<Sample> samples = samples_of(disc(cell, order, stabilisation), 16);
@@ -170,13 +170,13 @@ TEST_CASE("condition and errors do not depend on where a disc lies in the mesh")
   stays_near_median(samples);
 }
 
-TEST_CASE("condition and errors do not depend on where a sphere lies in the mesh") {
+TEST_CASE("condition and errors do not depend on where a sphere lies in the mesh", "[study]") {
   const std::string cell = GENERATE("hexahedron", "tetrahedron");
   INFO(cell);
   stays_near_median(samples_of(sphere(cell, "residual", 6), 12));
 }
 
-TEST_CASE("without ghost penalty the condition depends on the cut by orders of magnitude") {
+TEST_CASE("without ghost penalty the condition depends on the cut by orders of magnitude", "[study]") {
   const Slide slide = GENERATE(disc("quadrilateral", 1, "cip"), sphere("hexahedron", "residual", 6));
   INFO(slide.name);
   double largest = 0, smallest = 1e300, held = 0;

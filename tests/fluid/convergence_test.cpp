@@ -32,7 +32,7 @@ FlowErrors observed(const ExactFlow& exact, Box box, const std::string& more, do
 
 }  // namespace
 
-TEST_CASE("steady flows in the plane converge with the expected orders") {
+TEST_CASE("steady flows in the plane converge with the expected orders", "[study]") {
   const auto [cell, order, cells, stabilisation] =
       GENERATE(table<CellType, int, int, std::string>({{CellType::quadrilateral, 1, 16, "cip"},
                                                        {CellType::triangle, 1, 16, "cip"},
@@ -49,7 +49,7 @@ TEST_CASE("steady flows in the plane converge with the expected orders") {
   CHECK(orders.pressure > order + 0.5);
 }
 
-TEST_CASE("steady flows in space converge with the expected orders") {
+TEST_CASE("steady flows in space converge with the expected orders", "[study]") {
   const auto [cell, cells, stabilisation] =
       GENERATE(table<CellType, int, std::string>({{CellType::hexahedron, 4, "cip"},
                                                   {CellType::tetrahedron, 4, "cip"},
@@ -63,7 +63,7 @@ TEST_CASE("steady flows in space converge with the expected orders") {
   CHECK(orders.pressure > 1.4);
 }
 
-TEST_CASE("an unsteady flow converges in space") {
+TEST_CASE("an unsteady flow converges in space", "[study]") {
   const std::string stabilisation = GENERATE("cip", "residual");
   const FlowErrors orders = observed(vortices("cos(t)", "(-sin(t))"), {CellType::quadrilateral, 12, true},
                                      keys(1, stabilisation), 0.01, 4);
@@ -73,7 +73,7 @@ TEST_CASE("an unsteady flow converges in space") {
   CHECK(orders.pressure > 1.4);
 }
 
-TEST_CASE("the velocity has order 1 in time for theta = 1 and order 2 for theta = 0.5") {
+TEST_CASE("the velocity has order 1 in time for theta = 1 and order 2 for theta = 0.5", "[study]") {
   // Linear in space, so that only the error in time is left; it turns, so that no pressure can take it up.
   ExactFlow e;
   e.velocity = {"cos(3*t)*(0.5*x - y)", "cos(3*t)*(x - 0.5*y)"};

@@ -65,7 +65,7 @@ TEST_CASE("Couette flow on a cut wall is exact for every slip length and wall po
                             {"parameters.depth", depth}});
 }
 
-TEST_CASE("a manufactured flow around a disc converges with the expected orders") {
+TEST_CASE("a manufactured flow around a disc converges with the expected orders", "[study]") {
   const auto [cell, order, stabilisation, cells] =
       GENERATE(table<std::string, int, std::string, int>({{"quadrilateral", 1, "cip", 20},
                                                           {"triangle", 1, "cip", 20},
@@ -110,7 +110,7 @@ void converges_around_sphere(const std::string& cell, const std::string& stabili
 
 }  // namespace
 
-TEST_CASE("a manufactured flow around a sphere converges with the expected orders") {
+TEST_CASE("a manufactured flow around a sphere converges with the expected orders", "[study]") {
   converges_around_sphere(GENERATE("hexahedron", "tetrahedron"), "cip", 5);
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("so it does with residual-based stabilisation on fine meshes", "[.long
   converges_around_sphere(GENERATE("hexahedron", "tetrahedron"), "residual", 8);
 }
 
-TEST_CASE("the error does not depend on how thin the cut cells are") {
+TEST_CASE("the error does not depend on how thin the cut cells are", "[study]") {
   const ExactFlow exact = vortices("1", "0");
   const std::string stabilisation = GENERATE("cip", "residual");
   // `part` of the lowest row of active cells is fluid; the row below lies in the wall.
@@ -141,7 +141,7 @@ TEST_CASE("the error does not depend on how thin the cut cells are") {
   }
 }
 
-TEST_CASE("with theta = 0.5 a scene has order 2 in time, though nobody knows its initial rates") {
+TEST_CASE("with theta = 0.5 a scene has order 2 in time, though nobody knows its initial rates", "[study]") {
   // Linear in space, so that only the error in time is left.
   ExactFlow e;
   e.velocity = {"(1 + sin(3*t))*(0.5*x - y)", "(1 + sin(3*t))*(x - 0.5*y)"};

@@ -28,7 +28,7 @@ void stays_below(double factor, const CutErrors& errors, const CutErrors& usual)
 
 }  // namespace
 
-TEST_CASE("errors of a cut flow stay bounded over decades of all penalties") {
+TEST_CASE("errors of a cut flow stay bounded over decades of all penalties", "[study]") {
   const std::string stabilisation = GENERATE("cip", "residual");
   const std::string field = "stabilisation: " + stabilisation;
   const CutErrors usual = vortex_errors(field, "");
@@ -50,7 +50,7 @@ TEST_CASE("errors of a cut flow stay bounded over decades of all penalties") {
   }
 }
 
-TEST_CASE("cut flows stay stable from creeping to convective, from short steps to steady") {
+TEST_CASE("cut flows stay stable from creeping to convective, from short steps to steady", "[study]") {
   const std::string stabilisation = GENERATE("cip", "residual");
   for (const std::string reynolds : {"1e-3", "1", "1e3"})
     for (const std::string step : {"1e-6", "1e-3", "1e6"}) {

@@ -48,7 +48,7 @@ TEST_CASE("implicit Euler never gains energy") {
   CHECK(e.back() < 0.995 * e.front());
 }
 
-TEST_CASE("the trapezoidal rule nearly keeps the energy") {
+TEST_CASE("the trapezoidal rule nearly keeps the energy", "[study]") {
   const Folder folder;
   const auto e = energies(folder, "0.5");
   for (const double value : e) CHECK(value == Approx(e.front()).epsilon(2e-3));

@@ -27,17 +27,17 @@ TEST_CASE("patch tests are exact on every cell type and order") {
     passes("patch_3d", "--set meshes.patch.grid.cell=" + cell + " --set parameters.order=" + order);
 }
 
-TEST_CASE("Cook's membrane, compressible and nearly incompressible") {
+TEST_CASE("Cook's membrane, compressible and nearly incompressible", "[study]") {
   passes("cook");
   passes("cook_incompressible");
 }
 
-TEST_CASE("the beam of Turek and Hron under gravity, from a Gmsh file") {
+TEST_CASE("the beam of Turek and Hron under gravity, from a Gmsh file", "[study]") {
   passes("csm1");
   passes("csm2");
 }
 
-TEST_CASE("a block with the iterative solver, on one rank and several") {
+TEST_CASE("a block with the iterative solver, on one rank and several", "[study]") {
   const std::string size = "--set parameters.n=8";
   passes("block", size);
   passes("block", size, "mpirun --oversubscribe -np 2");

@@ -26,7 +26,7 @@ Orders observed(Body body, double theta, double end, int steps) {
 
 }  // namespace
 
-TEST_CASE("a static manufactured solution converges with the expected orders") {
+TEST_CASE("a static manufactured solution converges with the expected orders", "[study]") {
   const auto [cell, order, cells] = GENERATE(table<CellType, int, int>({{CellType::quadrilateral, 1, 16},
                                                                         {CellType::quadrilateral, 2, 8},
                                                                         {CellType::triangle, 1, 16},
@@ -45,7 +45,7 @@ TEST_CASE("a static manufactured solution converges with the expected orders") {
   CHECK(orders.h1 > order - 0.1);
 }
 
-TEST_CASE("a dynamic manufactured solution converges in space") {
+TEST_CASE("a dynamic manufactured solution converges in space", "[study]") {
   const auto [cell, order, cells] = GENERATE(table<CellType, int, int>({{CellType::quadrilateral, 1, 12},
                                                                         {CellType::quadrilateral, 2, 6},
                                                                         {CellType::triangle, 1, 12},
@@ -68,7 +68,7 @@ TEST_CASE("a dynamic manufactured solution converges in space") {
   CHECK(orders.h1 > order - 0.1);
 }
 
-TEST_CASE("the time scheme has order 1 for theta = 1 and order 2 for theta = 0.5") {
+TEST_CASE("the time scheme has order 1 for theta = 1 and order 2 for theta = 0.5", "[study]") {
   Body body;
   body.dynamic = true;
   body.exact.linear = true;
@@ -83,7 +83,7 @@ TEST_CASE("the time scheme has order 1 for theta = 1 and order 2 for theta = 0.5
 }
 
 TEST_CASE("the mixed form converges with the displacement form's orders, nearly incompressible too",
-          "[ranks]") {
+          "[ranks][study]") {
   Body body;
   body.cell = GENERATE(CellType::quadrilateral, CellType::triangle);
   body.order = 2;

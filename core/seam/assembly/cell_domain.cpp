@@ -43,6 +43,7 @@ void CellDomain::update(const Field& field) {
       whole_.push_back(c);
     } else if (cells_ == Cells::all) {
       field.cut()->volume_rule(c, degree_, rule);
+      if (rule.count() == 0) continue;
       CutTables& part = cut_.emplace_back();
       part.cell = c;
       part.weight = rule.weight;

@@ -66,13 +66,13 @@ class CutMesh {
   [[nodiscard]] double cell_volume(int cell) const;
   [[nodiscard]] double interface_area(int cell) const;
 
-  /// Rule for the fluid part of a cut cell, exact for monomials with each exponent up to `degree` in the
+  /// Rule for the fluid part of a cut cell, empty for one inside a body; exact for monomials with each exponent up to `degree` in the
   /// coordinates of an affine cell.
   void volume_rule(int cell, int degree, CutRule& rule) const;
   /// Rule for the interface in a cut cell, exact for polynomials of total degree `degree` on each piece.
   /// @param motion where not null: how the rule changes as facets move
   void interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion = nullptr) const;
-  /// Rule for the fluid part of one face of a cut cell; empty where the face is dry.
+  /// Rule for the fluid part of one face of a cut cell; empty where the face is dry, or the cell is a body's.
   void face_rule(int cell, int face, int degree, CutRule& rule) const;
 
   /// For pictures. The cell must be cut.

@@ -33,6 +33,10 @@ class FieldCut {
   /// The next cut decides anew which parts are dropped.
   void begin_step() { decided_ = false; }
 
+  /// Cells that are active now stay so to the end of the step: covered ones keep their unknowns, held by ghost
+  /// penalties alone (thesis 6.3.2).
+  void hold() { held_ = active_; }
+
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
   /// the caller. Collective.
@@ -69,6 +73,7 @@ class FieldCut {
   bool decided_ = false;            ///< in this step
   bool is_first_cut_ = false;       ///< the present cut is the one that decided
   double time_ = 0;                 ///< of the last update
+  std::vector<char> held_;            ///< [local cell]; empty when none is
   double dropped_volume_ = 0;
   std::map<int, double> area_;  ///< of the interface in cells, when first cut in the step
   Extension extension_;

@@ -59,6 +59,9 @@ Vector into_cell(CellType type, Vector reference) {
 
 void CutMesh::volume_rule(int cell, int degree, CutRule& rule) const {
   static thread_local std::vector<double> moment;
+  rule.reference.clear();
+  rule.weight.clear();
+  if (state_[cell] == CellState::body) return;
   const int dim = mesh_->dimension();
   const CellMap map(*mesh_, cell);
   const FittedRule& fitted = FittedRule::get(dim, degree);
@@ -70,9 +73,10 @@ void CutMesh::volume_rule(int cell, int degree, CutRule& rule) const {
 
 void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule) const {
   static thread_local std::vector<double> moment;
-  const CutCell& cut = geometry_->at(cell);
   rule.reference.clear();
   rule.weight.clear();
+  if (state_[cell] == CellState::body) return;
+  const CutCell& cut = geometry_->at(cell);
   const auto on_face = [&](const WetPart& w) { return w.face == face; };
   if ((cut.dry_faces >> face & 1U) != 0 || std::none_of(cut.wet.begin(), cut.wet.end(), on_face)) return;
   const CellTopology& shape = topology(mesh_->type());

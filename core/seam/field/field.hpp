@@ -80,7 +80,8 @@ class Field {
   /// Per local cell.
   [[nodiscard]] const std::vector<char>& active_cells() const { return active_cells_; }
   [[nodiscard]] const CutMesh* cut() const { return cut_; }
-  /// True when this local cell is active and only partly occupied.
+  /// True when this local cell is active and only partly occupied, or kept active though a body has covered
+  /// it altogether.
   [[nodiscard]] bool is_cut(int cell) const;
 
  private:

@@ -32,13 +32,12 @@ std::map<std::string, MeshNames> mesh_names(
 }
 
 Simulation::Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator)
-    : scene_(scene), communicator_(communicator), problem_(communicator) {
+    : scene_(scene), communicator_(communicator), problem_(communicator), stepper_(scene) {
   const Stopwatch watch;
-  read_time();
   build_fields(registry);
   build_couplings(registry);
   const Parameters& solver = scene.root.object("solver");
-  problem_.finish(time_.start, solver.object("newton").boolean("shape_derivatives"));
+  problem_.finish(stepper_.start(), solver.object("newton").boolean("shape_derivatives"));
   linear_ = registry.create<LinearSolver>("linear_solver", solver.object("linear"));
   const Parameters& newton = solver.object("newton");
   newton_ = std::make_unique<Newton>(
@@ -48,28 +47,6 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   for (const auto& [name, parameters] : scene.root.object("output").map("probes"))
     probes_.emplace_back(name, parameters, problem_);
   timings_.setup = watch.seconds();
-}
-
-void Simulation::read_time() {
-  if (!scene_.root.has("time")) return;
-  const Parameters& p = scene_.root.object("time");
-  time_.is_static = p.boolean("static");
-  time_.theta = p.number("theta");
-  time_.start = p.number("start");
-  time_.end = p.number("end");
-  if (time_.end <= time_.start)
-    throw Error(p.where("end"),
-                fmt::format("the end {} does not come after the start {}", time_.end, time_.start));
-  time_.initial = time_.maximum = time_.end - time_.start;
-  if (p.has("step")) {
-    const Parameters& step = p.object("step");
-    time_.initial = time_.maximum = std::min(step.number("initial"), time_.end - time_.start);
-    time_.adaptive = step.boolean("adaptive");
-    if (time_.adaptive) time_.maximum = std::max(time_.initial, 0.1 * (time_.end - time_.start));
-    if (step.has("maximum")) time_.maximum = step.number("maximum");
-  }
-  time_.minimum = 1e-6 * time_.initial;
-  if (p.has("step") && p.object("step").has("minimum")) time_.minimum = p.object("step").number("minimum");
 }
 
 void Simulation::build_fields(const Registry& registry) {
@@ -95,7 +72,7 @@ std::vector<double> Simulation::cell_costs(const std::string& mesh) const {
   for (const auto& [name, interface] : interfaces_)
     for (const auto& [field, parameters] : scene_.root.map("fields"))
       if (field == interface->fields().front() && parameters.text("mesh") == mesh)
-        if (auto body = interface->body(find, meshes_.at(mesh)->dimension, time_.start))
+        if (auto body = interface->body(find, meshes_.at(mesh)->dimension, stepper_.start()))
           bodies.push_back(std::move(*body));
   return bodies.empty() ? std::vector<double>{} : cut_cell_costs(meshes_.at(mesh), bodies);
 }
@@ -160,20 +137,20 @@ void Simulation::start(const RunOptions& options) {
   const bool resumed = !point.empty();
   if (resumed) {
     state_ = read_restart(point, problem_);
-    problem_.update_spaces(time_point(state_.time, 0, time_.theta));
+    problem_.update_spaces(time_point(state_.time, 0, stepper_.theta()));
   } else {
-    state_.time = time_.start;
-    state_.step = time_.initial;
-    problem_.initialise(time_.start, !time_.is_static);
-    problem_.update_spaces(time_point(time_.start, 0, time_.theta));
-    if (!time_.is_static && problem_.needs_initial_rates(time_.theta))
-      newton_->solve_initial_rates(time_.start);
+    state_.time = stepper_.start();
+    state_.step = stepper_.initial();
+    problem_.initialise(stepper_.start(), !stepper_.is_static());
+    problem_.update_spaces(time_point(stepper_.start(), 0, stepper_.theta()));
+    if (!stepper_.is_static() && problem_.needs_initial_rates(stepper_.theta()))
+      newton_->solve_initial_rates(stepper_.start());
   }
   if (scene_.root.object("output").boolean("fields"))
     fields_ = std::make_unique<FieldOutput>(problem_, folder_, resumed ? state_.time : -1.0);
   if (communicator_.rank() == 0) std::filesystem::create_directories(folder_);
   if (resumed) return;
-  const TimePoint at = time_point(time_.start, 0, time_.theta);
+  const TimePoint at = time_point(stepper_.start(), 0, stepper_.theta());
   problem_.assembler().assemble(at, false);
   record(at);
 }
@@ -183,26 +160,25 @@ const Results& Simulation::run(const RunOptions& options) {
   start(options);
   double step = state_.step;
   long taken = 0;
-  const double span = time_.end - time_.start;
-  while (state_.time < time_.end - 1e-10 * span) {
+  while (!stepper_.finished(state_.time)) {
     if (options.stop_after && taken++ == *options.stop_after) break;
-    const double remaining = time_.end - state_.time;
-    // No crumbs: a last step up to a hundredth longer or shorter than planned swallows them.
-    const double tried = remaining < 1.01 * step ? remaining : step;
-    if (try_step(tried)) {
-      step = next_step(tried);
+    const double from = state_.time, until = stepper_.target(from, step);
+    if (try_step(until)) {
+      step = stepper_.after_success(until, step, until - from, last_time_error_,
+                                    static_cast<int>(reports_.back().history.size()) - 1);
       state_.step = step;
       if (restart_due()) save_restart();
       show_progress(options, run_watch_.seconds());
       continue;
     }
     ++rejected_steps_;
-    step = tried / 2;
-    if (step < time_.minimum)
-      throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", state_.time,
-                              tried, reports_.back().reason));
+    const std::optional<double> shorter = stepper_.after_failure(until - from);
+    if (!shorter)
+      throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", from,
+                              until - from, reports_.back().reason));
+    step = *shorter;
   }
-  if (state_.time >= time_.end - 1e-10 * span) finish_errors();
+  if (stepper_.finished(state_.time)) finish_errors();
   finish_timings();
   return state_.results;
 }
@@ -222,13 +198,11 @@ void Simulation::record_failure(const std::string& reason) {
   save_restart();
 }
 
-/// One step; leaves everything as it was when it fails.
-bool Simulation::try_step(double step) {
+/// One step to the time `until`; leaves everything as it was when it fails.
+bool Simulation::try_step(double until) {
   const Problem::Snapshot before = problem_.snapshot();
-  const double until =
-      std::abs(state_.time + step - time_.end) < 1e-10 * step ? time_.end : state_.time + step;
-  const double theta = state_.step_number == 0 && problem_.constrains_rates() ? 1 : time_.theta;
-  const TimePoint at = time_point(until, time_.is_static ? 0 : step, theta);
+  const double theta = state_.step_number == 0 && problem_.constrains_rates() ? 1 : stepper_.theta();
+  const TimePoint at = time_point(until, stepper_.is_static() ? 0 : until - state_.time, theta);
   problem_.begin_step(at);
   try {
     reports_.push_back(newton_->solve(at));
@@ -246,7 +220,13 @@ bool Simulation::try_step(double step) {
     problem_.restore(before);
     return false;
   }
-  last_time_error_ = time_.adaptive && !time_.is_static ? time_error(at) : 0;
+  last_time_error_ = stepper_.adaptive() && !stepper_.is_static() ? time_error(at) : 0;
+  if (stepper_.too_inaccurate(last_time_error_)) {
+    reports_.back().converged = false;
+    reports_.back().reason = fmt::format("its error in time is {:.1e}", last_time_error_);
+    problem_.restore(before);
+    return false;
+  }
   state_.time = until;
   ++state_.step_number;
   record(at);
@@ -271,21 +251,6 @@ double Simulation::time_error(const TimePoint& at) const {
   return worst;
 }
 
-double Simulation::next_step(double tried) const {
-  if (!time_.adaptive) {
-    // After a failed step, return to the given grid of times.
-    const double done = (state_.time - time_.start) / time_.initial;
-    const double to_grid = (std::floor(done + 1 + 1e-9) - done) * time_.initial;
-    return std::min(2 * tried, to_grid);
-  }
-  constexpr double tolerance = 1e-3, most = 1.5;
-  double factor = most;
-  if (last_time_error_ > 0) factor = std::clamp(0.9 * std::sqrt(tolerance / last_time_error_), 0.3, most);
-  // A step that took many iterations should not be followed by a longer one.
-  if (reports_.back().history.size() > 9) factor = std::min(factor, 0.7);
-  return std::clamp(factor * tried, time_.minimum, time_.maximum);
-}
-
 void Simulation::record(const TimePoint& at) {
   const Stopwatch watch;
   state_.results.time.push_back(state_.time);
@@ -293,7 +258,7 @@ void Simulation::record(const TimePoint& at) {
   record_integrals(problem_, at, state_.results);
   record_formulas(scene_, state_.results);
   const long every = scene_.root.object("output").integer("every");
-  const bool last = state_.time >= time_.end;
+  const bool last = state_.time >= stepper_.end();
   last_point_ = at;
   if (fields_ && (state_.step_number % every == 0 || last)) write_fields(at);
   if (communicator_.rank() == 0) write_series((folder_ / "series.csv").string(), state_.results);
@@ -342,7 +307,7 @@ long long Simulation::unknowns() { return problem_.assembler().matrix().global_r
 
 void Simulation::show_progress(const RunOptions& options, double seconds) const {
   if (options.quiet || communicator_.rank() != 0) return;
-  const double done = (state_.time - time_.start) / (time_.end - time_.start);
+  const double done = (state_.time - stepper_.start()) / (stepper_.end() - stepper_.start());
   print_progress(
       {state_.step_number, state_.time, static_cast<int>(reports_.back().history.size()) - 1, done, seconds});
 }

@@ -14,6 +14,7 @@
 #include "seam/run/field_output.hpp"
 #include "seam/run/probes.hpp"
 #include "seam/run/restart.hpp"
+#include "seam/run/stepper.hpp"
 #include "seam/scene/scene.hpp"
 #include "seam/solve/newton.hpp"
 
@@ -58,20 +59,12 @@ class Simulation {
   [[nodiscard]] nlohmann::json summary(const std::vector<CheckResult>& checks);
 
  private:
-  struct TimeSettings {
-    bool is_static = true;
-    double theta = 1, start = 0, end = 1;
-    double initial = 1, minimum = 1e-6, maximum = 1;
-    bool adaptive = false;
-  };
   class Setup;
-  void read_time();
   void build_fields(const Registry& registry);
   [[nodiscard]] std::vector<double> cell_costs(const std::string& mesh) const;
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
-  bool try_step(double step);
-  double next_step(double tried) const;
+  bool try_step(double until);
   [[nodiscard]] double time_error(const TimePoint& at) const;
   void record(const TimePoint& at);
   void write_fields(const TimePoint& at);
@@ -88,7 +81,7 @@ class Simulation {
   Problem problem_;
   std::unique_ptr<LinearSolver> linear_;
   std::unique_ptr<Newton> newton_;
-  TimeSettings time_;
+  Stepper stepper_;
   RunState state_;
   std::vector<Probe> probes_;
   std::unique_ptr<FieldOutput> fields_;

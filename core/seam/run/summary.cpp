@@ -59,7 +59,7 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["scene_hash"] = scene_hash(scene_);
   s["overrides"] = nlohmann::json::array();
   for (const auto& [path, value] : scene_.overrides) s["overrides"].push_back(path + "=" + value);
-  const bool finished = state_.time >= time_.end;
+  const bool finished = state_.time >= stepper_.end();
   s["status"] = !failure_.empty() ? "failed" : finished ? "finished" : "stopped";
   if (!failure_.empty()) s["reason"] = failure_;
   s["time"] = state_.time;
@@ -76,7 +76,7 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["newton"] = histories(reports_);
   s["results"] = nlohmann::json::object();
   for (const std::string& name : state_.results.names())
-    s["results"][name] = state_.results.value(name, time_.end);
+    s["results"][name] = state_.results.value(name, stepper_.end());
   s["checks"] = nlohmann::json::array();
   for (const CheckResult& c : checks) {
     s["checks"].push_back({{"that", c.that},

@@ -14,6 +14,9 @@ namespace {
 constexpr double rounding = 1e-13;  ///< relative residual that cannot be lowered
 /// Part of a value that counts as its change in the step: in a steady state increments are noise.
 constexpr double steady_part = 1e-6;
+/// Iterations in which unknowns may come and go; then they may only come, lest a step cycle between two sets
+/// of them (thesis 6.3.2).
+constexpr int free_iterations = 3;
 
 }  // namespace
 
@@ -87,6 +90,7 @@ NewtonReport Newton::solve(const TimePoint& at) {
                       iteration, size.residual, size.worst, options_.tolerance);
       return report;
     }
+    if (iteration >= free_iterations) problem_.hold_spaces();
     SolveReport linear;
     solve_linear(increment, linear);
     entry.linear_iterations = linear.iterations;
@@ -104,16 +108,29 @@ bool Newton::take(const TimePoint& at, const std::vector<double>& increment, con
   for (entry.damping = 1; entry.damping > 1e-3; entry.damping /= 2) {
     problem_.assembler().add_increment(increment, entry.damping);
     problem_.update_rates(at);
-    entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
-    problem_.assembler().assemble(at, true);
-    const double size = measure({}, 0).residual;
-    const bool much_larger = size_before.residual > 0 && size > blow_up * size_before.residual && size > 1e-3;
-    if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
+    if (follow(at, entry)) {
+      problem_.assembler().assemble(at, true);
+      const double size = measure({}, 0).residual;
+      const bool much_larger =
+          size_before.residual > 0 && size > blow_up * size_before.residual && size > 1e-3;
+      if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
+    }
     if (!options_.damping) return false;
     problem_.restore(before);
     problem_.update_spaces(at);  // and with them the numbering that the increment has
   }
   return false;
+}
+
+/// Lets spaces follow the state. False when bodies moved too far for that; a part of the way may do.
+bool Newton::follow(const TimePoint& at, NewtonIteration& entry) {
+  try {
+    entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
+    return true;
+  } catch (const StepRefused&) {
+    if (!options_.damping) throw;
+    return false;
+  }
 }
 
 void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {

@@ -60,6 +60,7 @@ class Newton {
   [[nodiscard]] Size measure(const std::vector<double>& increment, double factor) const;
   bool take(const TimePoint& at, const std::vector<double>& increment, const Size& before,
             NewtonIteration& entry);
+  bool follow(const TimePoint& at, NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
   Problem& problem_;
   LinearSolver& solver_;

@@ -227,6 +227,11 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   return change;
 }
 
+void Problem::hold_spaces() {
+  for (FieldEntry& entry : fields_)
+    if (entry.cut) entry.cut->hold();
+}
+
 Problem::Snapshot Problem::snapshot() const {
   Snapshot states;
   for (const FieldEntry& entry : fields_)

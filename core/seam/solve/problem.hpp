@@ -138,6 +138,8 @@ class Problem {
   /// Cuts meshes anew, runs the space updates and rebuilds where needed. Collective.
   /// @throws StepRefused when a body moved further than states can be carried
   SpaceChange update_spaces(const TimePoint& at);
+  /// From now to the end of the step unknowns of fields that bodies cut may come but not go.
+  void hold_spaces();
 
   /// All states of all fields; what a failed step is rewound to.
   struct BlockSnapshot {
