@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "seam/cut/body.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/extension.hpp"
 
@@ -24,7 +24,7 @@ class FieldCut {
   explicit FieldCut(Field& field);
 
   /// The surface of a body at a time; must give the same on all ranks.
-  using Body = std::function<Surface(double time)>;
+  using Body = MovingSurface;
   /// @return the body's number, as InterfaceRule::body has it
   int add_body(Body body);
 

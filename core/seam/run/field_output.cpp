@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/run/field_output.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "seam/output/vtu.hpp"
 #include "seam/run/clipped_cells.hpp"
 #include "seam/run/evaluate.hpp"
 
@@ -120,45 +117,26 @@ VtuPiece rigid_piece(const FieldEntry& entry, const Space& shape) {
 
 }  // namespace
 
-FieldOutput::FieldOutput(Problem& problem, std::filesystem::path folder, double resume_time)
-    : problem_(problem), folder_(std::move(folder)) {
-  if (problem_.communicator().rank() == 0) std::filesystem::create_directories(folder_ / "fields");
+FieldOutput::FieldOutput(Problem& problem, const std::filesystem::path& folder, double resume_time)
+    : problem_(problem) {
+  for (const FieldEntry& entry : problem_.fields())
+    series_.emplace_back(problem_.communicator(), folder, entry.name, resume_time);
   MPI_Barrier(problem_.communicator().handle());
-  for (const FieldEntry& entry : problem_.fields()) {
-    const std::string path = series(entry.name).string();
-    series_.push_back(resume_time >= 0 && problem_.communicator().rank() == 0
-                          ? PvdSeries::resume(path, resume_time)
-                          : PvdSeries(path));
-  }
 }
 
 void FieldOutput::write(long step_number, const TimePoint& at) {
-  const Communicator& communicator = problem_.communicator();
   for (std::size_t f = 0; f < problem_.fields().size(); ++f) {
     const FieldEntry& entry = problem_.fields()[f];
     const bool rigid = entry.physics->support() == Support::point;
     const Space* space = finest_space(entry);
     std::unique_ptr<Space> shape;
     if (rigid || !space) shape = std::make_unique<Space>(*entry.shape, entry.shape->order());
-    const VtuPiece piece = rigid   ? rigid_piece(entry, *shape)
-                           : space ? field_piece(entry, *space, at)
-                                   : piece_of(*shape, {});
-    const std::string stem = fmt::format("{}-{:06}", entry.name, step_number);
-    const auto piece_name = [&](int rank) { return fmt::format("{}-r{}.vtu", stem, rank); };
-    const std::filesystem::path fields = folder_ / "fields";
-    if (communicator.size() == 1) {
-      write_vtu((fields / (stem + ".vtu")).string(), piece);
-      series_[f].add(at.time, "fields/" + stem + ".vtu");
-      continue;
-    }
-    write_vtu((fields / piece_name(communicator.rank())).string(), piece);
-    if (communicator.rank() != 0) continue;
-    std::vector<std::string> pieces;
-    for (int r = 0; r < communicator.size(); ++r) pieces.push_back(piece_name(r));
-    write_pvtu((fields / (stem + ".pvtu")).string(), pieces, piece);
-    series_[f].add(at.time, "fields/" + stem + ".pvtu");
+    series_[f].write(step_number, at.time,
+                     rigid   ? rigid_piece(entry, *shape)
+                     : space ? field_piece(entry, *space, at)
+                             : piece_of(*shape, {}));
   }
-  MPI_Barrier(communicator.handle());
+  MPI_Barrier(problem_.communicator().handle());
 }
 
 }  // namespace seam
