@@ -12,7 +12,9 @@ constexpr double smallest_kept = 2;
 }  // namespace
 
 FieldCut::FieldCut(Field& field)
-    : field_(&field), mesh_(field.mesh()), active_(field.mesh().cells(), 1), extension_(field) {}
+    : field_(&field), mesh_(field.mesh()), active_(field.mesh().cells(), 1), extension_(field) {
+  if (field.sets() > 1) sets_ = std::make_unique<PartSets>(field);
+}
 
 int FieldCut::add_body(Body body) {
   bodies_.push_back(std::move(body));
@@ -21,7 +23,7 @@ int FieldCut::add_body(Body body) {
 
 /// False after a failed step was rewound: then nodes known at its start may be inactive in the present cut.
 bool FieldCut::states_match() const {
-  bool match = true;
+  bool match = field_->layout() == layout_;
   for (const Block& block : field_->blocks()) match = match && block.known == block.active;
   return !field_->mesh().communicator().any(!match);
 }
@@ -41,9 +43,18 @@ bool FieldCut::update(double time) {
   if (decides) area_.clear();
   for (const int c : mesh_.cut_cells()) area_.try_emplace(c, mesh_.interface_area(c));
   for (int c = 0; c < field_->mesh().cells(); ++c) active_[c] = mesh_.state(c) != CellState::body ? 1 : 0;
+  if (sets_) choose_sets();
   field_->occupy(active_, &mesh_);
   extension_.extend();
   return true;
+}
+
+void FieldCut::choose_sets() {
+  mesh_.separate_parts();
+  const std::shared_ptr<const PartLayout> before = field_->layout();
+  layout_ = sets_->find(mesh_, active_);
+  if (before) carry_over(*field_, *before, *layout_, mesh_);
+  field_->set_layout(layout_);
 }
 
 double FieldCut::trace_size(int cell) const {

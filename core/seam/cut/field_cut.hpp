@@ -9,11 +9,15 @@
 #include "seam/cut/body.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/extension.hpp"
+#include "seam/cut/part_sets.hpp"
 
 namespace seam {
 
 /// The bodies that cut a field's mesh, and what their motion means for the field: which cells and nodes are
 /// active, and how states reach nodes that come alive (thesis 3.2).
+///
+/// Where the field has several sets of unknowns per node, parts of its cells that a body keeps apart get
+/// their own (PartLayout), and states follow the parts.
 ///
 /// Connected parts of less than two cells' volume are no part of the field: neither could the mesh resolve
 /// what goes on in them, nor would a body that closes them let an incompressible fluid go. Those that reach
@@ -56,6 +60,7 @@ class FieldCut {
   /// What the first cut of a step made of a local cell.
   enum class Decision : char { body, kept, dropped };
   [[nodiscard]] bool states_match() const;
+  void choose_sets();
   [[nodiscard]] std::vector<char> open_parts(const FluidParts& parts) const;
   [[nodiscard]] std::vector<int> decide();
   [[nodiscard]] std::vector<int> follow_decision() const;
@@ -72,6 +77,8 @@ class FieldCut {
   double dropped_volume_ = 0;
   std::map<int, double> area_;  ///< of the interface in cells, when first cut in the step
   Extension extension_;
+  std::unique_ptr<PartSets> sets_;  ///< null where parts are not told apart
+  std::shared_ptr<const PartLayout> layout_;
 };
 
 }  // namespace seam

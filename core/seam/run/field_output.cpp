@@ -18,7 +18,8 @@ const Space* finest_space(const FieldEntry& entry) {
 
 /// Cells and nodes of a space; the piece holds the cells this rank owns.
 /// @param shown per local cell; empty when all are
-VtuPiece piece_of(const Space& space, const std::vector<char>& shown) {
+/// @param field whose space it is, where it is one of a field's
+VtuPiece piece_of(const Space& space, const std::vector<char>& shown, const Field* field = nullptr) {
   const Mesh& mesh = space.mesh();
   VtuPiece piece;
   piece.dimension = mesh.dimension();
@@ -26,10 +27,11 @@ VtuPiece piece_of(const Space& space, const std::vector<char>& shown) {
   piece.order = space.order();
   for (int n = 0; n < space.nodes(); ++n)
     piece.points.insert(piece.points.end(), space.position(n), space.position(n) + piece.dimension);
-  for (int c = 0; c < mesh.owned_cells(); ++c)
-    if (shown.empty() || shown[c])
-      piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c),
-                                space.cell_nodes(c) + space.nodes_per_cell());
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    if (!shown.empty() && !shown[c]) continue;
+    const int* nodes = field ? field->cell_nodes(space, c) : space.cell_nodes(c);
+    piece.connectivity.insert(piece.connectivity.end(), nodes, nodes + space.nodes_per_cell());
+  }
   return piece;
 }
 
@@ -77,10 +79,10 @@ VtuPiece field_piece(const FieldEntry& entry, const Space& space, const TimePoin
     return piece;
   }
   const Mesh& mesh = field.mesh();
-  const ClippedCells clipped(space, *field.cut(), field.active_cells());
+  const ClippedCells clipped(field, space);
   std::vector<char> whole = field.active_cells();
   for (const int c : field.cut()->cut_cells()) whole[c] = 0;
-  VtuPiece piece = piece_of(space, whole);
+  VtuPiece piece = piece_of(space, whole, &field);
   piece.points.insert(piece.points.end(), clipped.points.begin(), clipped.points.end());
   piece.simplices = clipped.simplices;
   add_quantities(entry, space, at, &clipped, piece);
