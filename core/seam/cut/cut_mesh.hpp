@@ -68,8 +68,12 @@ class CutMesh {
   [[nodiscard]] int parts(int cell) const;
   /// Middle of the fluid in a part of a cell, m.
   [[nodiscard]] std::array<double, 3> part_centre(int cell, int part) const;
+  /// Middle of a whole cell, m.
+  [[nodiscard]] std::array<double, 3> cell_centre(int cell) const;
+  /// Whether a point of a cell lies in a part of the fluid.
+  [[nodiscard]] bool holds(int cell, int part, const std::array<double, 3>& position) const;
   /// The part that holds a point of a cell; the nearest one for a point of a body.
-  [[nodiscard]] int part_at(int cell, const double* position) const;
+  [[nodiscard]] int part_at(int cell, const std::array<double, 3>& position) const;
   /// Parts (of the cell, of its neighbour behind a face) whose fluid is in touch across the face.
   [[nodiscard]] std::vector<std::pair<int, int>> joined(int cell, int face) const;
   /// The local cell behind a face, -1 where there is none.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/field_cut.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace seam {
@@ -55,6 +56,23 @@ void FieldCut::choose_sets() {
   layout_ = sets_->find(mesh_, active_);
   if (before) carry_over(*field_, *before, *layout_, mesh_);
   field_->set_layout(layout_);
+  if (!before) accept_states();
+}
+
+/// At the start, of a part that no node of its own is in, values at its nodes are all that is known.
+void FieldCut::accept_states() {
+  for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) {
+    Block& block = field_->blocks()[b];
+    const std::vector<char> known = block.known;
+    for (int c = 0; c < field_->mesh().cells(); ++c)
+      for (int p = 0; p < field_->parts(c) && active_[c] != 0; ++p) {
+        const int* nodes = field_->cell_nodes(b, c, p);
+        const int* end = nodes + block.space->nodes_per_cell();
+        if (std::none_of(nodes, end, [&](int n) { return known[n] != 0; }))
+          std::for_each(nodes, end, [&](int n) { block.known[n] = 1; });
+      }
+    block.space->halo().update(block.known, 1);
+  }
 }
 
 double FieldCut::trace_size(int cell) const {

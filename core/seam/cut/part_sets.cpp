@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "seam/cut/cells_of_nodes.hpp"
 #include "seam/cut/disjoint_sets.hpp"
@@ -14,17 +15,27 @@ namespace {
 constexpr int bits = 2;  ///< for the number of a set: at most 4
 constexpr int per_word = 15;
 
-/// Orders the sets of a node: first those that whole or undivided cells use, by the lowest number of a cell.
+/// Orders the sets of a node: first that in whose fluid it lies, then those that undivided cells use, by the
+/// lowest number of a cell.
 struct Key {
+  bool apart = true;  ///< the node lies elsewhere
   int undivided = std::numeric_limits<int>::max(), cell = undivided, part = 0;
   friend auto operator<=>(const Key&, const Key&) = default;
+  void include(const Key& other) {
+    apart = apart && other.apart;
+    undivided = std::min(undivided, other.undivided);
+    std::tie(cell, part) = std::min(std::pair(cell, part), std::pair(other.cell, other.part));
+  }
 };
 
 /// The parts of cells around one node, and which of them are connected there.
 class NodeParts {
  public:
-  NodeParts(const CutMesh& cut, const std::vector<char>& active, std::span<const CellNode> cells)
+  /// @param position of the node
+  NodeParts(const CutMesh& cut, const std::vector<char>& active, std::span<const CellNode> cells,
+            const double* position)
       : cut_(cut) {
+    std::copy_n(position, cut.mesh().dimension(), position_.begin());
     for (const CellNode& c : cells)
       for (int p = 0; p < cut.parts(c.cell) && active[c.cell]; ++p) members_.push_back({c.cell, c.node, p});
   }
@@ -32,30 +43,34 @@ class NodeParts {
     int cell, node, part;
   };
 
-  /// Calls assign(member, set).
+  /// Calls assign(member, set), unless all are of set 0.
   template <class Assign>
   void number(int most, const Assign& assign) const {
-    DisjointSets sets(static_cast<int>(members_.size()));
+    const int count = static_cast<int>(members_.size());
+    DisjointSets sets(count);
     connect(sets);
     std::map<int, Key> key;  // by root
-    for (int k = 0; k < static_cast<int>(members_.size()); ++k) {
-      const Member& m = members_[k];
-      const int global = cut_.mesh().global_cell(m.cell);
-      Key own{cut_.parts(m.cell) == 1 ? global : std::numeric_limits<int>::max(), global, m.part};
-      Key& common = key.try_emplace(sets.root(k), own).first->second;
-      common = {std::min(common.undivided, own.undivided),
-                std::min(std::pair(common.cell, common.part), std::pair(own.cell, own.part)).first,
-                std::min(std::pair(common.cell, common.part), std::pair(own.cell, own.part)).second};
-    }
+    for (int k = 0; k < count; ++k) key[sets.root(k)];
+    if (key.size() < 2) return;
+    for (int k = 0; k < count; ++k) key[sets.root(k)].include(key_of(members_[k]));
     std::map<Key, int> order;
     for (const auto& [root, k] : key) order[k] = 0;
     int next = 0;
     for (auto& [k, number] : order) number = std::min(next++, most - 1);
-    for (int k = 0; k < static_cast<int>(members_.size()); ++k)
-      assign(members_[k], order.at(key.at(sets.root(k))));
+    for (int k = 0; k < count; ++k) assign(members_[k], order.at(key.at(sets.root(k))));
   }
 
  private:
+  [[nodiscard]] Key key_of(const Member& m) const {
+    // Nodes lie on the border of cells, where inside and outside are no clear question.
+    constexpr double inward = 1e-7;
+    std::array<double, 3> inside = position_;
+    const std::array<double, 3> middle = cut_.cell_centre(m.cell);
+    for (int d = 0; d < 3; ++d) inside[d] += inward * (middle[d] - inside[d]);
+    const int global = cut_.mesh().global_cell(m.cell);
+    return {!cut_.holds(m.cell, m.part, inside),
+            cut_.parts(m.cell) == 1 ? global : std::numeric_limits<int>::max(), global, m.part};
+  }
   void connect(DisjointSets& sets) const {
     const int faces = static_cast<int>(topology(cut_.mesh().type()).faces.size());
     for (std::size_t k = 0; k < members_.size(); ++k) {
@@ -72,6 +87,7 @@ class NodeParts {
     }
   }
   const CutMesh& cut_;
+  std::array<double, 3> position_{};
   std::vector<Member> members_;  ///< those of a cell behind each other
 };
 
@@ -90,9 +106,9 @@ PartSets::Sets PartSets::choose(const CutMesh& cut, const std::vector<char>& act
   }
   const CellsOfNodes cells_of(space, wanted);
   for (const int node : cells_of.nodes())
-    NodeParts(cut, active, cells_of.around(node)).number(space.sets(), [&](const auto& m, int set) {
-      sets[m.cell][m.part * per_cell + m.node] = set;
-    });
+    NodeParts(cut, active, cells_of.around(node), space.position(node))
+        .number(space.sets(),
+                [&](const auto& m, int set) { sets[m.cell][m.part * per_cell + m.node] = set; });
   exchange(per_cell, sets);
   return sets;
 }

@@ -68,16 +68,19 @@ std::array<double, 3> CutMesh::part_centre(int cell, int part) const {
                                         : middle;
 }
 
-int CutMesh::part_at(int cell, const double* position) const {
-  const std::vector<CellPart>& parts = geometry_->parts_of(cell);
-  const int dim = mesh_->dimension();
-  Vector x{};
-  std::copy_n(position, dim, x.begin());
+std::array<double, 3> CutMesh::cell_centre(int cell) const { return geometry_->outline.centre(cell); }
+
+bool CutMesh::holds(int cell, int part, const std::array<double, 3>& position) const {
+  if (state_[cell] != CellState::cut) return state_[cell] == CellState::fluid;
+  return contains(mesh_->dimension(), geometry_->at(cell, part), position);
+}
+
+int CutMesh::part_at(int cell, const std::array<double, 3>& position) const {
   int nearest = 0;
   double least = std::numeric_limits<double>::max();
-  for (int p = 0; p < static_cast<int>(parts.size()); ++p) {
-    if (contains(dim, parts[p].cut, x)) return p;
-    const Vector way = parts[p].centre - x;
+  for (int p = 0; p < parts(cell); ++p) {
+    if (holds(cell, p, position)) return p;
+    const Vector way = part_centre(cell, p) - position;
     if (dot(way, way) < least) nearest = p;
     least = std::min(least, dot(way, way));
   }

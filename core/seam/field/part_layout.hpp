@@ -8,7 +8,8 @@ namespace seam {
 
 /// Which sets of unknowns the parts of a field's cells use, where bodies part the fluid in a cell or around a
 /// node (thesis Remark 3.2). The parts of cells around a node that are connected there through faces share
-/// one set; the sets of a node are numbered from 0, by where they lie and by nothing of the past.
+/// one set. The sets of a node are numbered from 0, by where they lie and by nothing of the past: the fluid
+/// in which the node itself lies has set 0.
 struct PartLayout {
   /// A part of a cell that has several, or whose nodes are not all of set 0.
   struct Part {

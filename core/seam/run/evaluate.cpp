@@ -203,7 +203,7 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
     return;
   }
   const int dim = mesh.dimension();
-  position_ = position;
+  std::copy_n(position.begin(), dim, position_.begin());
   // How far outside the reference cell the point lies, for the best owned cell.
   double best = std::numeric_limits<double>::max();
   for (int c = 0; c < mesh.owned_cells(); ++c) {
@@ -245,7 +245,7 @@ std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQua
   std::vector<double> result(quantity.components, 0.0);
   if (cell_ >= 0) {
     const Field& field = *entry.field;
-    const int part = field.parts(cell_) > 1 ? field.cut()->part_at(cell_, position_.data()) : 0;
+    const int part = field.parts(cell_) > 1 ? field.cut()->part_at(cell_, position_) : 0;
     const SampleDomain domain(entry, {{cell_, part}}, reference_);
     ElementEvaluator evaluator(domain, {bind(quantity)});
     const auto& values = evaluator.compute_values(0, at);

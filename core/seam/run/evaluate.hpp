@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,7 +52,8 @@ class ProbePoint {
 
  private:
   int cell_ = -1;  ///< local, on the rank that evaluates; -1 elsewhere
-  std::vector<double> position_, reference_;
+  std::array<double, 3> position_{};
+  std::vector<double> reference_;
 };
 
 /// Sum of the forces that hold the prescribed components of an unknown on boundaries. Collective.

@@ -139,7 +139,8 @@ void Problem::initialise(double time, bool impose_prescribed) {
       for (std::size_t i = 0; i < block.prescribed.size(); ++i)
         if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
       block.old = block.now;
-      block.known.assign(block.known.size(), 1);
+      // The initial values are those at the node itself, which lies in the fluid of its set 0.
+      for (int n = 0; n < block.space->nodes(); ++n) block.known[n] = block.space->set_of(n) == 0 ? 1 : 0;
       entry.field->set_layout(nullptr);
     }
 }

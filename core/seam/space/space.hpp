@@ -46,6 +46,12 @@ class Space {
   }
   [[nodiscard]] const Halo& halo() const { return halo_; }
 
+  /// The set of a node; foreign nodes have set 0 only.
+  [[nodiscard]] int set_of(int node) const {
+    if (node < owned_nodes_) return node / (owned_nodes_ / sets_);
+    return node < owned_nodes_ + ghost_nodes_ ? (node - owned_nodes_) / (ghost_nodes_ / sets_) : 0;
+  }
+
   /// A node that an interface needs here although no local cell has it.
   struct ForeignNode {
     int global;
