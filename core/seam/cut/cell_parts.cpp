@@ -100,6 +100,9 @@ Assignment chains(const CutCell& cell, double size) {
 
 /// Area that two polygons in one plane have in common.
 double common_area(const Polygon& polygon, const Polygon& other, double size) {
+  // Of thinner ones not even the direction of the normal is known.
+  const double least = negligible * size * size;
+  if (length(vector_area(polygon)) < least || length(vector_area(other)) < least) return 0;
   return length(vector_area(common_part(polygon, other, vector_area(other), negligible * size)));
 }
 
@@ -122,9 +125,20 @@ class LeafParts {
     Assignment result;
     for (int k = 0; k < static_cast<int>(leaves_.size()); ++k)
       if (number_.try_emplace(sets_.root(k), result.count).second) ++result.count;
-    if (result.count < 2) return result;
     for (int k = 0; k < static_cast<int>(leaves_.size()); ++k) add_wet(k, result);
-    for (const Piece& p : cell_.pieces) result.piece.push_back(p.handed_over ? -1 : part_behind(p));
+    std::map<int, int> film;  // by face
+    for (const Piece& p : cell_.pieces) {
+      const int side = p.handed_over ? -1 : covered_side(p);
+      if (side < 0) {
+        result.piece.push_back(p.handed_over ? -1 : part_behind(p));
+        continue;
+      }
+      const auto [found, is_new] = film.try_emplace(outline_.sides[side].face, result.count);
+      if (is_new) ++result.count;
+      result.piece.push_back(found->second);
+      add_polygon({cell_.points.begin() + p.first, cell_.points.begin() + p.first + p.count},
+                  outline_.sides[side], found->second, result);
+    }
     return result;
   }
 
@@ -138,18 +152,31 @@ class LeafParts {
     return false;
   }
   void add_wet(int leaf, Assignment& result) {
-    for (const Convex::Face& face : leaves_[leaf].faces) {
-      if (face.origin < 0) continue;
-      const Side& side = outline_.sides[face.origin];
-      const Vector normal = side_normal(outline_, side);
-      const Polygon& x = face.corner;
-      for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-        const double area = 0.5 * dot(cross(x[k] - x[0], x[k + 1] - x[0]), normal);
-        if (area == 0) continue;
-        result.wet.push_back({side.face, normal, {x[0], x[k], x[k + 1]}, 1.0, area});
-        result.wet_owner.push_back(number_.at(sets_.root(leaf)));
-      }
+    for (const Convex::Face& face : leaves_[leaf].faces)
+      if (face.origin >= 0)
+        add_polygon(face.corner, outline_.sides[face.origin], number_.at(sets_.root(leaf)), result);
+  }
+  void add_polygon(const Polygon& x, const Side& side, int owner, Assignment& result) const {
+    const Vector normal = side_normal(outline_, side);
+    for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+      const double area = 0.5 * dot(cross(x[k] - x[0], x[k + 1] - x[0]), normal);
+      if (area == 0) continue;
+      result.wet.push_back({side.face, normal, {x[0], x[k], x[k + 1]}, 1.0, area});
+      result.wet_owner.push_back(owner);
     }
+  }
+  /// The side of the cell in whose plane a piece lies so that the fluid between them has no thickness, -1
+  /// where there is none. That fluid is a part of its own: it belongs to what lies behind the side.
+  [[nodiscard]] int covered_side(const Piece& piece) const {
+    for (int s = outline_.first_side[cell_.cell]; s < outline_.first_side[cell_.cell + 1]; ++s) {
+      const Vector normal = side_normal(outline_, outline_.sides[s]);
+      const Vector& origin = outline_.position[outline_.sides[s].vertex[0]];
+      bool covered = dot(normal, piece.normal) < -0.999;
+      for (int k = 0; k < piece.count && covered; ++k)
+        covered = std::abs(dot(normal, cell_.points[piece.first + k] - origin)) < 1e-13 * size_;
+      if (covered) return s;
+    }
+    return -1;
   }
   /// The part that a piece of the interface bounds: that with most of it as its face.
   [[nodiscard]] int part_behind(const Piece& piece) {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/field_cut.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "seam/base/diagnostics.hpp"
 
 namespace seam {
 namespace {
@@ -53,10 +58,46 @@ bool FieldCut::update(double time) {
 void FieldCut::choose_sets() {
   mesh_.separate_parts();
   const std::shared_ptr<const PartLayout> before = field_->layout();
-  layout_ = sets_->find(mesh_, active_);
-  if (before) carry_over(*field_, *before, *layout_, mesh_);
+  const std::shared_ptr<PartLayout> now = sets_->find(mesh_, active_);
+  for (const Surface& surface : surfaces_) now->body_points.push_back(surface.points);
+  if (before) {
+    check_motion(*before);
+    carry_over(*field_, *before, *now, mesh_);
+  }
+  layout_ = now;
   field_->set_layout(layout_);
   if (!before) accept_states();
+}
+
+/// Parts of a cell are recognised by where they lie, as long as a body moves by less than half a cell.
+void FieldCut::check_motion(const PartLayout& before) const {
+  const Mesh& mesh = field_->mesh();
+  const std::size_t dim = mesh.dimension();
+  double width = std::numeric_limits<double>::max();
+  for (int c = 0; c < mesh.cells(); ++c)
+    if (before.count(c) > 1 || mesh_.parts(c) > 1)
+      for (const auto& [a, b] : topology(mesh.type()).edges) {
+        double square = 0;
+        for (std::size_t d = 0; d < dim; ++d)
+          square += std::pow(mesh.geometry(c)[a * dim + d] - mesh.geometry(c)[b * dim + d], 2);
+        width = std::min(width, std::sqrt(square));
+      }
+  double most = 0;
+  for (std::size_t b = 0; b < surfaces_.size(); ++b) {
+    const std::vector<double>& now = surfaces_[b].points;
+    // A level set has other points at every time.
+    if (before.body_points[b].size() != now.size()) continue;
+    for (std::size_t k = 0; k < now.size(); k += dim) {
+      double square = 0;
+      for (std::size_t d = 0; d < dim; ++d) square += std::pow(now[k + d] - before.body_points[b][k + d], 2);
+      most = std::max(most, std::sqrt(square));
+    }
+  }
+  if (most > 0.5 * mesh.communicator().min(width))
+    throw StepRefused(
+        fmt::format("field '{}': a body that parts the fluid in its cells moves by {:.3g} m in one "
+                    "step, more than half a cell; the step is too long for its motion",
+                    field_->name(), most));
 }
 
 /// At the start, of a part that no node of its own is in, values at its nodes are all that is known.

@@ -61,6 +61,7 @@ class FieldCut {
   enum class Decision : char { body, kept, dropped };
   [[nodiscard]] bool states_match() const;
   void choose_sets();
+  void check_motion(const PartLayout& before) const;
   void accept_states();
   [[nodiscard]] std::vector<char> open_parts(const FluidParts& parts) const;
   [[nodiscard]] std::vector<int> decide();

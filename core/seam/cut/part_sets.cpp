@@ -15,8 +15,8 @@ namespace {
 constexpr int bits = 2;  ///< for the number of a set: at most 4
 constexpr int per_word = 15;
 
-/// Orders the sets of a node: first that in whose fluid it lies, then those that undivided cells use, by the
-/// lowest number of a cell.
+/// Orders the sets of a node: first that in whose fluid it lies, which alone has number 0, then those that
+/// undivided cells use, by the lowest number of a cell.
 struct Key {
   bool apart = true;  ///< the node lies elsewhere
   int undivided = std::numeric_limits<int>::max(), cell = undivided, part = 0;
@@ -55,7 +55,7 @@ class NodeParts {
     for (int k = 0; k < count; ++k) key[sets.root(k)].include(key_of(members_[k]));
     std::map<Key, int> order;
     for (const auto& [root, k] : key) order[k] = 0;
-    int next = 0;
+    int next = order.begin()->first.apart ? 1 : 0;
     for (auto& [k, number] : order) number = std::min(next++, most - 1);
     for (int k = 0; k < count; ++k) assign(members_[k], order.at(key.at(sets.root(k))));
   }
@@ -136,7 +136,7 @@ void PartSets::exchange(int per_cell, Sets& sets) const {
   }
 }
 
-std::shared_ptr<const PartLayout> PartSets::find(const CutMesh& cut, const std::vector<char>& active) const {
+std::shared_ptr<PartLayout> PartSets::find(const CutMesh& cut, const std::vector<char>& active) const {
   auto layout = std::make_shared<PartLayout>();
   layout->active = active;
   std::array<Sets, 2> sets;

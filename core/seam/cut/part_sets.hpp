@@ -18,8 +18,7 @@ class PartSets {
 
   /// Collective. @param cut whose parts are told apart
   /// @param active per local cell
-  [[nodiscard]] std::shared_ptr<const PartLayout> find(const CutMesh& cut,
-                                                       const std::vector<char>& active) const;
+  [[nodiscard]] std::shared_ptr<PartLayout> find(const CutMesh& cut, const std::vector<char>& active) const;
 
  private:
   using Sets = std::vector<std::vector<int>>;  ///< [cell][part, node of the cell]

@@ -8,8 +8,8 @@ namespace seam {
 
 /// Which sets of unknowns the parts of a field's cells use, where bodies part the fluid in a cell or around a
 /// node (thesis Remark 3.2). The parts of cells around a node that are connected there through faces share
-/// one set. The sets of a node are numbered from 0, by where they lie and by nothing of the past: the fluid
-/// in which the node itself lies has set 0.
+/// one set. The sets of a node are numbered from 0, by where they lie and by nothing of the past: set 0
+/// is that of the fluid in which the node itself lies, or the only one.
 struct PartLayout {
   /// A part of a cell that has several, or whose nodes are not all of set 0.
   struct Part {
@@ -17,8 +17,9 @@ struct PartLayout {
     std::array<std::vector<int>, 2> set;   ///< [order - 1][node of the cell]; empty for orders not in use
     std::array<std::vector<int>, 2> node;  ///< the same as local nodes of the Space
   };
-  std::vector<char> active;  ///< [local cell]
-  std::vector<int> first;    ///< [local cell + 1]: into parts; equal ones where the cell is one part of set 0
+  std::vector<char> active;                      ///< [local cell]
+  std::vector<std::vector<double>> body_points;  ///< [body]: of the surfaces that part the cells, m
+  std::vector<int> first;  ///< [local cell + 1]: into parts; equal ones where the cell is one part of set 0
   std::vector<Part> parts;
 
   /// Of a local cell: 1 where nothing is listed.
