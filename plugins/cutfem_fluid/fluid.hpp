@@ -13,6 +13,7 @@ class Fluid final : public Physics {
   Fluid(const Parameters& parameters, const Registry& registry);
   static Schema schema();
 
+  [[nodiscard]] bool separates_parts() const override { return parameters_.text("parts") == "separate"; }
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override;
   void build(FieldSetup& setup) const override;
 

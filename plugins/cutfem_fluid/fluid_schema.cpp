@@ -56,6 +56,12 @@ Schema Fluid::schema() {
   s.typed("stabilisation", "Against oscillations of equal orders and of convection", "fluid_stabilisation")
       .otherwise("cip");
   s.object("ghost_penalty", "Penalty on jumps around cut cells", ghost_penalty_schema()).otherwise("{}");
+  s.choice("parts",
+           "Where a body thinner than a cell lies between them, `separate` gives the fluid on either side "
+           "unknowns "
+           "of its own; `joined` does not",
+           {"joined", "separate"})
+      .otherwise("joined");
   s.choice("fix_pressure",
            "`auto` fixes the level of the pressure at one node of each part of the fluid where the "
            "conditions here leave it open; `never` "

@@ -121,7 +121,9 @@ double distance_of_facets(const std::string& shape) {
                           .body = "{" + shape + ", centre: [0, 0, 0], radius: 1}"}
                    .scene());
   const Parameters& body = flow.scene().root.map("interfaces")[0].second.object("body");
-  const Surface surface = fluid_types().create<BodyShape>("body", body)->surface(3, {});
+  const MeshFinder no_meshes;
+  const Mesh& background = *flow.simulation().problem().fields()[0].mesh;
+  const Surface surface = fluid_types().create<BodyShape>("body", body)->surface({background, no_meshes})(0);
   double largest = 0;
   for (int f = 0; f < surface.facet_count(); ++f) {
     double centre[3] = {0, 0, 0};

@@ -22,13 +22,16 @@ void BoundaryDomain::update(const Field& field) {
       whole_.push_back(face);
       continue;
     }
-    field.cut()->face_rule(face.cell, face.face, degree_, rule);
-    if (rule.count() == 0) continue;
-    CutTables& part = cut_.emplace_back();
-    part.cell = face.cell;
-    part.face = face.face;
-    part.weight = rule.weight;
-    part.fill(field, rule.reference, true);
+    for (int p = 0; p < field.parts(face.cell); ++p) {
+      field.cut()->face_rule(face.cell, face.face, degree_, rule, p);
+      if (rule.count() == 0) continue;
+      CutTables& part = cut_.emplace_back();
+      part.cell = face.cell;
+      part.part = p;
+      part.face = face.face;
+      part.weight = rule.weight;
+      part.fill(field, rule.reference, true);
+    }
   }
 }
 
@@ -40,7 +43,7 @@ void BoundaryDomain::fill(int index, Element& element) const {
   ElementSide& side = element.sides[0];
   const CutTables* part = index < whole ? nullptr : &cut_[index - whole];
   const CellFace face = part ? CellFace{part->cell, part->face} : whole_[index];
-  attach_cell(side, *field_, face.cell);
+  attach_cell(side, *field_, face.cell, part ? part->part : 0);
   side.face = face.face;
   if (part)
     part->attach(side);
@@ -57,8 +60,8 @@ void BoundaryDomain::fill(int index, Element& element) const {
 
 const int* BoundaryDomain::nodes(int index, int, int block) const {
   const int whole = static_cast<int>(whole_.size());
-  const int cell = index < whole ? whole_[index].cell : cut_[index - whole].cell;
-  return field_->blocks()[block].space->cell_nodes(cell);
+  if (index < whole) return field_->cell_nodes(block, whole_[index].cell);
+  return field_->cell_nodes(block, cut_[index - whole].cell, cut_[index - whole].part);
 }
 
 std::string BoundaryDomain::description() const {

@@ -42,19 +42,17 @@ void CellDomain::update(const Field& field) {
     if (!field.is_cut(c)) {
       whole_.push_back(c);
     } else if (cells_ == Cells::all) {
-      field.cut()->volume_rule(c, degree_, rule);
-      if (rule.count() == 0) continue;
-      CutTables& part = cut_.emplace_back();
-      part.cell = c;
-      part.weight = rule.weight;
-      part.fill(field, rule.reference, false);
+      for (int p = 0; p < field.parts(c); ++p) {
+        field.cut()->volume_rule(c, degree_, rule, p);
+        if (rule.count() == 0) continue;
+        CutTables& part = cut_.emplace_back();
+        part.cell = c;
+        part.part = p;
+        part.weight = rule.weight;
+        part.fill(field, rule.reference, false);
+      }
     }
   }
-}
-
-int CellDomain::cell(int index) const {
-  const int whole = static_cast<int>(whole_.size());
-  return index < whole ? whole_[index] : cut_[index - whole].cell;
 }
 
 void CellDomain::fill(int index, Element& element) const {
@@ -62,8 +60,8 @@ void CellDomain::fill(int index, Element& element) const {
   element.dimension = field_->mesh().dimension();
   element.sides.resize(1);
   ElementSide& side = element.sides[0];
-  attach_cell(side, *field_, cell(index));
   if (index < whole) {
+    attach_cell(side, *field_, whole_[index]);
     element.points = rule_->count();
     for (int o = 0; o < 2; ++o) side.table[o] = tables_[o].points > 0 ? &tables_[o] : nullptr;
     side.map_geometry();
@@ -72,6 +70,7 @@ void CellDomain::fill(int index, Element& element) const {
   } else {
     const CutTables& part = cut_[index - whole];
     element.points = static_cast<int>(part.weight.size());
+    attach_cell(side, *field_, part.cell, part.part);
     part.attach(side);
     side.map_geometry();
     element.weight = part.weight;
@@ -81,7 +80,9 @@ void CellDomain::fill(int index, Element& element) const {
 }
 
 const int* CellDomain::nodes(int index, int, int block) const {
-  return field_->blocks()[block].space->cell_nodes(cell(index));
+  const int whole = static_cast<int>(whole_.size());
+  if (index < whole) return field_->cell_nodes(block, whole_[index]);
+  return field_->cell_nodes(block, cut_[index - whole].cell, cut_[index - whole].part);
 }
 
 std::string CellDomain::description() const { return fmt::format("cells of field '{}'", field_->name()); }

@@ -12,6 +12,7 @@ namespace seam {
 /// Shape functions at the points of one part of a cut cell, one table per order of the field's spaces.
 struct CutTables {
   int cell = -1;
+  int part = 0;                ///< of the cell, where it has several (Field::parts)
   int face = -1;               ///< local face, for parts of the boundary
   std::vector<double> weight;  ///< [point], physical
   ShapeTable table[2];
@@ -34,7 +35,6 @@ class CellDomain final : public IntegrationDomain {
   void update(const Field& field) override;
 
  private:
-  [[nodiscard]] int cell(int index) const;
   Field* field_;
   int degree_;
   Cells cells_;
@@ -67,7 +67,7 @@ class FaceTables {
 };
 
 /// Faces of a field's active cells that carry a name; this rank evaluates those of its owned cells. Of a cut
-/// cell's face only the wet part counts.
+/// cell's face only the wet part counts, each part of the cell for itself.
 class BoundaryDomain final : public IntegrationDomain {
  public:
   BoundaryDomain(Field& field, const std::string& boundary, int degree);
@@ -88,7 +88,8 @@ class BoundaryDomain final : public IntegrationDomain {
   FaceTables tables_;
 };
 
-/// Whole faces between two active cells of a field: side 0 is the cell with the lower global number.
+/// Whole faces between two active cells of a field: side 0 is the cell with the lower global number. Where
+/// parts of cells have unknowns of their own, each pair of parts in touch across the face is an element.
 class InteriorFaceDomain final : public IntegrationDomain {
  public:
   enum class Faces {
@@ -108,16 +109,18 @@ class InteriorFaceDomain final : public IntegrationDomain {
   [[nodiscard]] bool belongs(const Mesh::InteriorFace& face) const;
   struct OrientedFace {
     CellFace side[2];
+    int part[2];
     int orientation;
   };
+  void add(const Mesh::InteriorFace& face);
   Field* field_;
   Faces choice_;
   std::vector<OrientedFace> faces_;
   FaceTables tables_;
 };
 
-/// Points `side` at a local cell of its field.
-void attach_cell(ElementSide& side, const Field& field, int cell);
+/// Points `side` at a local cell of its field, or at one of its parts.
+void attach_cell(ElementSide& side, const Field& field, int cell, int part = 0);
 
 /// True where some space of the field, or its mesh, has this order.
 bool uses_order(const Field& field, int order);

@@ -31,14 +31,23 @@ bool InteriorFaceDomain::belongs(const Mesh::InteriorFace& face) const {
 
 void InteriorFaceDomain::update(const Field& field) {
   if (&field != field_) return;
-  const Space& space = *field.blocks().front().space;
-  const CellTopology& cell = topology(field.mesh().type());
   faces_.clear();
   for (const Mesh::InteriorFace& face : field.mesh().interior_faces())
-    if (belongs(face))
-      faces_.push_back({{face.side[0], face.side[1]},
-                        FaceTables::orientation(cell, space.cell_nodes(face.side[0].cell), face.side[0].face,
-                                                space.cell_nodes(face.side[1].cell), face.side[1].face)});
+    if (belongs(face)) add(face);
+}
+
+void InteriorFaceDomain::add(const Mesh::InteriorFace& face) {
+  const Space& space = *field_->blocks().front().space;
+  const CellFace &first = face.side[0], &second = face.side[1];
+  const int orientation =
+      FaceTables::orientation(topology(field_->mesh().type()), space.cell_nodes(first.cell), first.face,
+                              space.cell_nodes(second.cell), second.face);
+  if (field_->layout() == nullptr || (!field_->is_cut(first.cell) && !field_->is_cut(second.cell))) {
+    faces_.push_back({{first, second}, {0, 0}, orientation});
+    return;
+  }
+  for (const auto& [part, other] : field_->cut()->joined(first.cell, first.face))
+    faces_.push_back({{first, second}, {part, other}, orientation});
 }
 
 void InteriorFaceDomain::fill(int index, Element& element) const {
@@ -47,7 +56,7 @@ void InteriorFaceDomain::fill(int index, Element& element) const {
   element.points = tables_.rule().count();
   element.sides.resize(2);
   for (int s = 0; s < 2; ++s) {
-    attach_cell(element.sides[s], *field_, face.side[s].cell);
+    attach_cell(element.sides[s], *field_, face.side[s].cell, face.part[s]);
     element.sides[s].face = face.side[s].face;
   }
   ElementSide &first = element.sides[0], &second = element.sides[1];
@@ -61,7 +70,7 @@ void InteriorFaceDomain::fill(int index, Element& element) const {
 }
 
 const int* InteriorFaceDomain::nodes(int index, int side, int block) const {
-  return field_->blocks()[block].space->cell_nodes(faces_[index].side[side].cell);
+  return field_->cell_nodes(block, faces_[index].side[side].cell, faces_[index].part[side]);
 }
 
 std::string InteriorFaceDomain::description() const {

@@ -9,14 +9,14 @@
 
 namespace seam {
 
-void attach_cell(ElementSide& side, const Field& field, int cell) {
+void attach_cell(ElementSide& side, const Field& field, int cell, int part) {
   side.field = &field;
   side.global_cell = field.mesh().global_cell(cell);
   side.geometry = field.mesh().geometry(cell);
   side.diameter = field.mesh().diameter(cell);
   side.nodes.resize(field.blocks().size());
   for (std::size_t b = 0; b < side.nodes.size(); ++b)
-    side.nodes[b] = field.blocks()[b].space->cell_nodes(cell);
+    side.nodes[b] = field.cell_nodes(static_cast<int>(b), cell, part);
 }
 
 void invert_map(const ElementSide& side, const double* position, double* guess) {

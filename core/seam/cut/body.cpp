@@ -19,8 +19,20 @@ void require_dimension(const Parameters& p, int dimension, int wanted) {
                                        wanted, dimension));
 }
 
+/// A shape that keeps its form.
+class RigidShape : public BodyShape {
+ public:
+  [[nodiscard]] MovingSurface surface(const BodySetting& setting) const final {
+    return
+        [shape = outline(setting.background.dimension(), setting.meshes)](double) { return Surface(shape); };
+  }
+
+ private:
+  [[nodiscard]] virtual Surface outline(int dimension, const MeshFinder& meshes) const = 0;
+};
+
 /// A regular polygon with the area of the circle: the radius of its corners is a little larger.
-class Circle final : public BodyShape {
+class Circle final : public RigidShape {
  public:
   explicit Circle(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -30,7 +42,7 @@ class Circle final : public BodyShape {
     s.integer("facets", "sides of the polygon").at_least(3).otherwise("720");
     return s;
   }
-  [[nodiscard]] Surface surface(int dimension, const MeshFinder&) const override {
+  [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
     require_dimension(p_, dimension, 2);
     const int n = static_cast<int>(p_.integer("facets"));
     const double step = 2 * std::numbers::pi / n;
@@ -49,7 +61,7 @@ class Circle final : public BodyShape {
 };
 
 /// An icosahedron, its triangles split in four again and again, on the sphere of the same volume.
-class Sphere final : public BodyShape {
+class Sphere final : public RigidShape {
  public:
   explicit Sphere(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -62,7 +74,7 @@ class Sphere final : public BodyShape {
         .otherwise("4");
     return s;
   }
-  [[nodiscard]] Surface surface(int dimension, const MeshFinder&) const override {
+  [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
     require_dimension(p_, dimension, 3);
     Surface s = icosahedron();
     for (long k = 0; k < p_.integer("refinements"); ++k) split(s);
@@ -138,7 +150,7 @@ class Sphere final : public BodyShape {
   Parameters p_;
 };
 
-class Box final : public BodyShape {
+class Box final : public RigidShape {
  public:
   explicit Box(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -147,7 +159,7 @@ class Box final : public BodyShape {
     s.vector("to", "its highest corner").unit("m");
     return s;
   }
-  [[nodiscard]] Surface surface(int dimension, const MeshFinder&) const override {
+  [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
     const auto &low = p_.vector("from"), &high = p_.vector("to");
     Surface s;
     s.dimension = dimension;
@@ -173,7 +185,7 @@ class Box final : public BodyShape {
   Parameters p_;
 };
 
-class Outline final : public BodyShape {
+class Outline final : public RigidShape {
  public:
   explicit Outline(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -183,7 +195,7 @@ class Outline final : public BodyShape {
     s.list("corners", "its corners, counter-clockwise", corner);
     return s;
   }
-  [[nodiscard]] Surface surface(int dimension, const MeshFinder&) const override {
+  [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
     require_dimension(p_, dimension, 2);
     Surface s;
     const auto& corners = p_.list("corners");
@@ -207,7 +219,7 @@ class Outline final : public BodyShape {
   Parameters p_;
 };
 
-class MeshBody final : public BodyShape {
+class MeshBody final : public RigidShape {
  public:
   explicit MeshBody(const Parameters& p) : p_(p) {}
   static Schema schema() {
@@ -216,7 +228,7 @@ class MeshBody final : public BodyShape {
     s.names("boundaries", "parts of its boundary; default all").naming("boundary").otherwise("[]");
     return s;
   }
-  [[nodiscard]] Surface surface(int, const MeshFinder& meshes) const override {
+  [[nodiscard]] Surface outline(int, const MeshFinder& meshes) const override {
     return body_boundary(*meshes(p_.text("mesh")), p_.names("boundaries")).surface;
   }
 
@@ -238,6 +250,7 @@ void register_bodies(Registry& registry) {
   add<Box>(registry, "box");
   add<Outline>(registry, "outline");
   add<MeshBody>(registry, "mesh");
+  register_level_set(registry);
 }
 
 }  // namespace seam

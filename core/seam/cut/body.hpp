@@ -6,6 +6,7 @@
 #include <string>
 
 #include "seam/cut/surface.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/mesh/mesh_data.hpp"
 #include "seam/plugin/registry.hpp"
 
@@ -14,16 +15,30 @@ namespace seam {
 /// Finds a mesh of the scene by its name.
 using MeshFinder = std::function<std::shared_ptr<const MeshData>(const std::string& name)>;
 
+/// A surface as a function of time.
+using MovingSurface = std::function<Surface(double time)>;
+
+/// What a shape may ask of the scene.
+struct BodySetting {
+  const Mesh& background;  ///< out of which the body is cut; must outlive the surface
+  const MeshFinder& meshes;
+};
+
 /// The shape of a body of given geometry. A type of kind "body".
 class BodyShape {
  public:
   virtual ~BodyShape() = default;
-  /// Its boundary, before any motion. @param dimension of the scene
-  [[nodiscard]] virtual Surface surface(int dimension, const MeshFinder& meshes) const = 0;
+  /// Its boundary, before the motion that the interface may add. Every rank of the background mesh gets the
+  /// same; calls of the result are collective.
+  [[nodiscard]] virtual MovingSurface surface(const BodySetting& setting) const = 0;
+  /// Whether it is defined in space instead of in its own frame: then no motion can be added.
+  [[nodiscard]] virtual bool is_in_space() const { return false; }
 };
 
-/// Registers "circle", "sphere", "box", "outline" and "mesh".
+/// Registers "circle", "sphere", "box", "outline", "mesh" and "level_set".
 void register_bodies(Registry& registry);
+/// Registers "level_set".
+void register_level_set(Registry& registry);
 
 /// The boundary of a mesh as planar facets that know where they come from.
 struct BodyBoundary {

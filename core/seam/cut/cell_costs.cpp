@@ -5,10 +5,7 @@
 
 namespace seam {
 
-std::vector<double> cut_cell_costs(const std::shared_ptr<const MeshData>& mesh,
-                                   const std::vector<Surface>& bodies) {
-  // Every rank holds the whole mesh at the start and finds the same costs.
-  const Mesh whole("whole", mesh, Communicator(MPI_COMM_SELF));
+std::vector<double> cut_cell_costs(const Mesh& whole, const std::vector<Surface>& bodies) {
   CutMesh cut(whole);
   cut.cut(bodies);
   std::vector<double> cost(whole.cells());

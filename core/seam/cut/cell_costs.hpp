@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "seam/cut/surface.hpp"
-#include "seam/mesh/mesh_data.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace seam {
 
 /// Cost of each cell of a mesh out of which bodies are cut, relative to a whole cell of the fluid: those
 /// inside a body cost next to nothing, cut ones have more points and an interface.
-std::vector<double> cut_cell_costs(const std::shared_ptr<const MeshData>& mesh,
-                                   const std::vector<Surface>& bodies);
+/// @param whole the mesh, all of it on every rank
+/// @return [global cell]
+std::vector<double> cut_cell_costs(const Mesh& whole, const std::vector<Surface>& bodies);
 
 }  // namespace seam

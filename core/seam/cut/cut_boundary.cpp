@@ -22,12 +22,14 @@ void CutBoundary::update(const Field& field) {
   InterfaceMotion motion;
   for (const int cell : field.cut()->cut_cells()) {
     if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
-    field.cut()->interface_rule(cell, degree_, rule, mover() ? &motion : nullptr);
-    add_pieces(cell, rule, motion);
+    for (int part = 0; part < field.parts(cell); ++part) {
+      field.cut()->interface_rule(cell, degree_, rule, mover() ? &motion : nullptr, part);
+      add_pieces(cell, part, rule, motion);
+    }
   }
 }
 
-void CutBoundary::add_pieces(int cell, const InterfaceRule& rule, const InterfaceMotion& motion) {
+void CutBoundary::add_pieces(int cell, int part, const InterfaceRule& rule, const InterfaceMotion& motion) {
   const auto dim = static_cast<std::size_t>(field_->mesh().dimension());
   std::map<int, std::vector<int>> points;  // by group
   for (int q = 0; q < rule.count(); ++q)
@@ -35,6 +37,7 @@ void CutBoundary::add_pieces(int cell, const InterfaceRule& rule, const Interfac
   for (const auto& [group, of_group] : points) {
     Piece& piece = pieces_.emplace_back();
     piece.cell = cell;
+    piece.part = part;
     piece.group = group;
     piece.trace_size = cut_->trace_size(cell);
     std::vector<double> reference;
@@ -57,7 +60,7 @@ void CutBoundary::fill(int index, Element& element) const {
   element.points = static_cast<int>(piece.weight.size());
   element.sides.resize(1);
   ElementSide& side = element.sides[0];
-  attach_cell(side, *field_, piece.cell);
+  attach_cell(side, *field_, piece.cell, piece.part);
   piece.attach(side);
   side.map_geometry();
   element.weight = piece.weight;
@@ -67,7 +70,7 @@ void CutBoundary::fill(int index, Element& element) const {
 }
 
 const int* CutBoundary::nodes(int index, int, int block) const {
-  return field_->blocks()[block].space->cell_nodes(pieces_[index].cell);
+  return field_->cell_nodes(block, pieces_[index].cell, pieces_[index].part);
 }
 
 std::string CutBoundary::description() const {

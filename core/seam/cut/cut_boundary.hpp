@@ -47,7 +47,7 @@ class CutBoundary : public IntegrationDomain {
   [[nodiscard]] const Piece& piece(int index) const { return pieces_[index]; }
 
  private:
-  void add_pieces(int cell, const InterfaceRule& rule, const InterfaceMotion& motion);
+  void add_pieces(int cell, int part, const InterfaceRule& rule, const InterfaceMotion& motion);
   Field* field_;
   const FieldCut* cut_;
   int body_, degree_;

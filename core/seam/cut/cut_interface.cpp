@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/cut_interface.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "seam/base/diagnostics.hpp"
 #include "seam/cut/cut_boundary.hpp"
 
 namespace seam {
@@ -60,7 +63,13 @@ class Motion {
 }  // namespace
 
 CutInterface::CutInterface(const Parameters& parameters, const Registry& types)
-    : parameters_(parameters), body_(types.create<BodyShape>("body", parameters.object("body"))) {}
+    : parameters_(parameters), body_(types.create<BodyShape>("body", parameters.object("body"))) {
+  if (body_->is_in_space() && parameters.has("motion"))
+    throw Error(parameters.where("motion"),
+                fmt::format("a body '{}' is a function of space and takes no motion; write t into its own "
+                            "expression",
+                            parameters.object("body").type()));
+}
 
 Schema CutInterface::schema() {
   Schema s("The boundary of a body of given shape and motion, cut out of a field's mesh.");
@@ -70,26 +79,26 @@ Schema CutInterface::schema() {
   return s;
 }
 
-FieldCut::Body CutInterface::moving_body(const MeshFinder& meshes, int dimension) const {
-  const Surface shape = body_->surface(dimension, meshes);
-  if (!parameters_.has("motion")) return [shape](double) { return Surface(shape); };
-  return [shape, motion = Motion(parameters_.object("motion"))](double time) {
-    Surface moved = shape;
+MovingSurface CutInterface::moving_body(const BodySetting& setting) const {
+  MovingSurface shape = body_->surface(setting);
+  if (!parameters_.has("motion")) return shape;
+  return [shape = std::move(shape), motion = Motion(parameters_.object("motion"))](double time) {
+    Surface moved = shape(time);
     motion.apply(moved, time);
     return moved;
   };
 }
 
-std::optional<Surface> CutInterface::body(const MeshFinder& meshes, int dimension, double time) const {
-  return moving_body(meshes, dimension)(time);
+std::optional<Surface> CutInterface::body(const BodySetting& setting, double time) const {
+  return moving_body(setting)(time);
 }
 
 std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) const {
   Field& field = *setup.sides[0];
-  FieldCut::Body moving =
-      moving_body([&](const std::string& name) { return setup.mesh(name); }, field.mesh().dimension());
+  const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
   FieldCut& cut = setup.cut(0);
-  return std::make_shared<CutBoundary>(field, cut, cut.add_body(std::move(moving)), setup.degree);
+  return std::make_shared<CutBoundary>(field, cut, cut.add_body(moving_body({field.mesh(), meshes})),
+                                       setup.degree);
 }
 
 }  // namespace seam

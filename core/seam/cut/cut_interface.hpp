@@ -17,12 +17,11 @@ class CutInterface final : public Interface {
   CutInterface(const Parameters& parameters, const Registry& types);
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("field")}; }
-  [[nodiscard]] std::optional<Surface> body(const MeshFinder& meshes, int dimension,
-                                            double time) const override;
+  [[nodiscard]] std::optional<Surface> body(const BodySetting& setting, double time) const override;
   [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
 
  private:
-  [[nodiscard]] FieldCut::Body moving_body(const MeshFinder& meshes, int dimension) const;
+  [[nodiscard]] MovingSurface moving_body(const BodySetting& setting) const;
   Parameters parameters_;
   std::unique_ptr<BodyShape> body_;
 };

@@ -145,6 +145,7 @@ void CutMesh::adopt_ghost_states() {
 void CutMesh::number_cut_cells() {
   Geometry& g = *geometry_;
   g.index.assign(mesh_->cells(), -1);
+  g.parts.clear();
   cut_cells_.clear();
   for (std::size_t k = 0; k < g.cells.size(); ++k) {
     g.index[g.cells[k].cell] = static_cast<int>(k);
@@ -152,13 +153,19 @@ void CutMesh::number_cut_cells() {
   }
 }
 
-const CutCell& CutMesh::Geometry::at(int cell) const {
+const CutCell& CutMesh::Geometry::at(int cell, int part) const {
   if (index[cell] < 0) throw std::logic_error("CutMesh: the cell is not cut");
-  return cells[index[cell]];
+  if (part == all_parts || parts_of(cell).empty()) return cells[index[cell]];
+  return parts_of(cell)[part].cut;
 }
 
-double CutMesh::fluid_volume(int cell) const { return geometry_->at(cell).fluid_volume; }
+const std::vector<CellPart>& CutMesh::Geometry::parts_of(int cell) const {
+  static const std::vector<CellPart> none;
+  return parts.empty() || index[cell] < 0 ? none : parts[index[cell]];
+}
+
+double CutMesh::fluid_volume(int cell, int part) const { return geometry_->at(cell, part).fluid_volume; }
 double CutMesh::cell_volume(int cell) const { return geometry_->at(cell).volume; }
-double CutMesh::interface_area(int cell) const { return geometry_->at(cell).interface_area; }
+double CutMesh::interface_area(int cell, int part) const { return geometry_->at(cell, part).interface_area; }
 
 }  // namespace seam

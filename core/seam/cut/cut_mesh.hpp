@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "seam/cut/fluid_parts.hpp"
@@ -56,31 +58,55 @@ class CutMesh {
   /// finite, or an outline that should be closed and is not, naming body and facet
   void cut(std::span<const Surface> bodies);
 
+  /// All parts of the fluid in a cell together.
+  static constexpr int all_parts = -1;
+  /// Tells the connected parts of the fluid within each cell apart, until the next cut() or drop(). A part
+  /// that no neighbour's fluid touches stays with the largest one of its cell, and in space all fluid of a
+  /// cell that is not affine is one part. Collective.
+  void separate_parts();
+  /// Number of parts of the fluid in a cell: 1 unless they are told apart, also in a body.
+  [[nodiscard]] int parts(int cell) const;
+  /// Middle of the fluid in a part of a cell, m.
+  [[nodiscard]] std::array<double, 3> part_centre(int cell, int part) const;
+  /// Middle of a whole cell, m.
+  [[nodiscard]] std::array<double, 3> cell_centre(int cell) const;
+  /// Whether a point of a cell lies in a part of the fluid.
+  [[nodiscard]] bool holds(int cell, int part, const std::array<double, 3>& position) const;
+  /// The part that holds a point of a cell; the nearest one for a point of a body.
+  [[nodiscard]] int part_at(int cell, const std::array<double, 3>& position) const;
+  /// Parts (of the cell, of its neighbour behind a face) whose fluid is in touch across the face.
+  [[nodiscard]] std::vector<std::pair<int, int>> joined(int cell, int face) const;
+  /// The local cell behind a face, -1 where there is none.
+  [[nodiscard]] int neighbour(int cell, int face) const;
+
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   /// Of a local cell.
   [[nodiscard]] CellState state(int cell) const { return state_[cell]; }
   /// Local cells that are cut, ascending.
   [[nodiscard]] const std::vector<int>& cut_cells() const { return cut_cells_; }
   /// Volume of the fluid part and of a whole cell, and area of the interface in it. The cell must be cut.
-  [[nodiscard]] double fluid_volume(int cell) const;
+  [[nodiscard]] double fluid_volume(int cell, int part = all_parts) const;
   [[nodiscard]] double cell_volume(int cell) const;
-  [[nodiscard]] double interface_area(int cell) const;
+  [[nodiscard]] double interface_area(int cell, int part = all_parts) const;
 
-  /// Rule for the fluid part of a cut cell, empty for one inside a body; exact for monomials with each exponent up to `degree` in the
-  /// coordinates of an affine cell.
-  void volume_rule(int cell, int degree, CutRule& rule) const;
+  /// Rule for the fluid part of a cut cell, empty for one inside a body; exact for monomials with each
+  /// exponent up to `degree` in the coordinates of an affine cell.
+  /// @param part of those that separate_parts() told apart
+  void volume_rule(int cell, int degree, CutRule& rule, int part = all_parts) const;
   /// Rule for the interface in a cut cell, exact for polynomials of total degree `degree` on each piece.
   /// @param motion where not null: how the rule changes as facets move
-  void interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion = nullptr) const;
-  /// Rule for the fluid part of one face of a cut cell; empty where the face is dry, or the cell is a body's.
-  void face_rule(int cell, int face, int degree, CutRule& rule) const;
+  void interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion = nullptr,
+                      int part = all_parts) const;
+  /// Rule for the fluid part of one face of a cut cell; empty where the face is dry, or the cell is a
+  /// body's.
+  void face_rule(int cell, int face, int degree, CutRule& rule, int part = all_parts) const;
 
   /// For pictures. The cell must be cut.
-  void fluid_shape(int cell, FluidShape& shape) const;
+  void fluid_shape(int cell, FluidShape& shape, int part = all_parts) const;
   /// For pictures: triangles or tetrahedra of which the fluid part of a cut cell consists, positively
   /// oriented. In the plane they are as fine as the outline and share its points with neighbours.
   /// @param corners [simplex][dimension + 1][dimension], m
-  void fluid_simplices(int cell, std::vector<double>& corners) const;
+  void fluid_simplices(int cell, std::vector<double>& corners, int part = all_parts) const;
 
   /// Collective.
   [[nodiscard]] FluidParts find_parts() const;
@@ -92,6 +118,8 @@ class CutMesh {
 
  private:
   [[nodiscard]] bool is_wet(int cell, int face) const;
+  [[nodiscard]] bool are_joined(int cell, int part, int face, int other, int other_part,
+                                int other_face) const;
   void number_cut_cells();
   void adopt_ghost_states();
 

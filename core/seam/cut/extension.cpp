@@ -87,18 +87,21 @@ Extension::Extension(Field& field) : field_(&field) {}
 Extension::~Extension() = default;
 
 void Extension::extend() {
-  for (Block& block : field_->blocks()) extend_block(block);
+  for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) extend_block(b);
 }
 
-void Extension::check_reach(const Block& block) const {
+void Extension::check_reach(int number) const {
+  const Block& block = field_->blocks()[number];
   const Mesh& mesh = field_->mesh();
   int lost = -1;
   for (int c = 0; c < mesh.owned_cells(); ++c) {
     if (!field_->active_cells()[c]) continue;
-    const int* nodes = block.space->cell_nodes(c);
-    if (std::none_of(nodes, nodes + block.space->nodes_per_cell(),
-                     [&](int n) { return block.known[n] != 0; }))
-      lost = mesh.global_cell(c);
+    for (int p = 0; p < field_->parts(c); ++p) {
+      const int* nodes = field_->cell_nodes(number, c, p);
+      if (std::none_of(nodes, nodes + block.space->nodes_per_cell(),
+                       [&](int n) { return block.known[n] != 0; }))
+        lost = mesh.global_cell(c);
+    }
   }
   lost = mesh.communicator().max(lost);
   if (lost >= 0)
@@ -111,8 +114,8 @@ void Extension::check_reach(const Block& block) const {
 Field& Extension::carrier(int order) {
   auto& carrier = carriers_[order - 1];
   if (!carrier)
-    carrier =
-        std::make_unique<Field>("extension", field_->mesh(), std::vector<Unknown>{{"w", 1, order, 0, ""}});
+    carrier = std::make_unique<Field>("extension", field_->mesh(),
+                                      std::vector<Unknown>{{"w", 1, order, 0, ""}}, field_->sets());
   return *carrier;
 }
 
@@ -152,15 +155,17 @@ void Extension::add(Block& block, int row, int column, double value, System& sys
                                    -value * (*states[l])[static_cast<std::size_t>(column) * block.size + c]});
 }
 
-void Extension::extend_block(Block& block) {
+void Extension::extend_block(int number) {
+  Block& block = field_->blocks()[number];
   const Space& space = *block.space;
   const Communicator& communicator = field_->mesh().communicator();
   bool any_new = false;
   for (int n = 0; n < space.owned_nodes(); ++n) any_new = any_new || (block.active[n] && !block.known[n]);
   if (communicator.any(any_new)) {
-    check_reach(block);
+    check_reach(number);
     Field& scalar = carrier(space.order());
-    scalar.occupy(field_->active_cells());
+    scalar.set_layout(field_->layout());
+    scalar.occupy(field_->active_cells(), field_->cut());
     // Few nodes come alive in a step: every rank solves for all of them, and all get the same bits.
     System system;
     assemble(block, scalar, system);

@@ -24,12 +24,12 @@ class Extension {
 
  private:
   struct System;
-  void check_reach(const Block& block) const;
+  void check_reach(int block) const;
   static void assemble(Block& block, Field& carrier, System& system);
   static void add(Block& block, int row, int column, double value, System& system);
   void set_states(Block& block, const System& system);
   [[nodiscard]] Field& carrier(int order);
-  void extend_block(Block& block);
+  void extend_block(int block);
   Field* field_;
   std::unique_ptr<Field> carriers_[2];  ///< a scalar field per order, on the same mesh
 };

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/field_cut.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "seam/base/diagnostics.hpp"
 
 namespace seam {
 namespace {
@@ -12,7 +18,9 @@ constexpr double smallest_kept = 2;
 }  // namespace
 
 FieldCut::FieldCut(Field& field)
-    : field_(&field), mesh_(field.mesh()), active_(field.mesh().cells(), 1), extension_(field) {}
+    : field_(&field), mesh_(field.mesh()), active_(field.mesh().cells(), 1), extension_(field) {
+  if (field.sets() > 1) sets_ = std::make_unique<PartSets>(field);
+}
 
 int FieldCut::add_body(Body body) {
   bodies_.push_back(std::move(body));
@@ -21,7 +29,7 @@ int FieldCut::add_body(Body body) {
 
 /// False after a failed step was rewound: then nodes known at its start may be inactive in the present cut.
 bool FieldCut::states_match() const {
-  bool match = true;
+  bool match = field_->layout() == layout_;
   for (const Block& block : field_->blocks()) match = match && block.known == block.active;
   return !field_->mesh().communicator().any(!match);
 }
@@ -43,11 +51,73 @@ bool FieldCut::update(double time) {
     held_.clear();
   }
   for (const int c : mesh_.cut_cells()) area_.try_emplace(c, mesh_.interface_area(c));
-  for (int c = 0; c < field_->mesh().cells(); ++c) 
+  for (int c = 0; c < field_->mesh().cells(); ++c)
     active_[c] = mesh_.state(c) != CellState::body || (!held_.empty() && held_[c] != 0) ? 1 : 0;
+  if (sets_) choose_sets();
   field_->occupy(active_, &mesh_);
   extension_.extend();
   return true;
+}
+
+void FieldCut::choose_sets() {
+  mesh_.separate_parts();
+  const std::shared_ptr<const PartLayout> before = field_->layout();
+  const std::shared_ptr<PartLayout> now = sets_->find(mesh_, active_);
+  for (const Surface& surface : surfaces_) now->body_points.push_back(surface.points);
+  if (before) {
+    check_motion(*before);
+    carry_over(*field_, *before, *now, mesh_);
+  }
+  layout_ = now;
+  field_->set_layout(layout_);
+  if (!before) accept_states();
+}
+
+/// Parts of a cell are recognised by where they lie, as long as a body moves by less than half a cell.
+void FieldCut::check_motion(const PartLayout& before) const {
+  const Mesh& mesh = field_->mesh();
+  const std::size_t dim = mesh.dimension();
+  double width = std::numeric_limits<double>::max();
+  for (int c = 0; c < mesh.cells(); ++c)
+    if (before.count(c) > 1 || mesh_.parts(c) > 1)
+      for (const auto& [a, b] : topology(mesh.type()).edges) {
+        double square = 0;
+        for (std::size_t d = 0; d < dim; ++d)
+          square += std::pow(mesh.geometry(c)[a * dim + d] - mesh.geometry(c)[b * dim + d], 2);
+        width = std::min(width, std::sqrt(square));
+      }
+  double most = 0;
+  for (std::size_t b = 0; b < surfaces_.size(); ++b) {
+    const std::vector<double>& now = surfaces_[b].points;
+    // A level set has other points at every time.
+    if (before.body_points[b].size() != now.size()) continue;
+    for (std::size_t k = 0; k < now.size(); k += dim) {
+      double square = 0;
+      for (std::size_t d = 0; d < dim; ++d) square += std::pow(now[k + d] - before.body_points[b][k + d], 2);
+      most = std::max(most, std::sqrt(square));
+    }
+  }
+  if (most > 0.5 * mesh.communicator().min(width))
+    throw StepRefused(
+        fmt::format("field '{}': a body that parts the fluid in its cells moves by {:.3g} m in one "
+                    "step, more than half a cell; the step is too long for its motion",
+                    field_->name(), most));
+}
+
+/// At the start, of a part that no node of its own is in, values at its nodes are all that is known.
+void FieldCut::accept_states() {
+  for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) {
+    Block& block = field_->blocks()[b];
+    const std::vector<char> known = block.known;
+    for (int c = 0; c < field_->mesh().cells(); ++c)
+      for (int p = 0; p < field_->parts(c) && active_[c] != 0; ++p) {
+        const int* nodes = field_->cell_nodes(b, c, p);
+        const int* end = nodes + block.space->nodes_per_cell();
+        if (std::none_of(nodes, end, [&](int n) { return known[n] != 0; }))
+          std::for_each(nodes, end, [&](int n) { block.known[n] = 1; });
+      }
+    block.space->halo().update(block.known, 1);
+  }
 }
 
 double FieldCut::trace_size(int cell) const {

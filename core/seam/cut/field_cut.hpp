@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "seam/cut/body.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/extension.hpp"
+#include "seam/cut/part_sets.hpp"
 
 namespace seam {
 
 /// The bodies that cut a field's mesh, and what their motion means for the field: which cells and nodes are
 /// active, and how states reach nodes that come alive (thesis 3.2).
+///
+/// Where the field has several sets of unknowns per node, parts of its cells that a body keeps apart get
+/// their own (PartLayout), and states follow the parts.
 ///
 /// Connected parts of less than two cells' volume are no part of the field: neither could the mesh resolve
 /// what goes on in them, nor would a body that closes them let an incompressible fluid go. Those that reach
@@ -24,7 +28,7 @@ class FieldCut {
   explicit FieldCut(Field& field);
 
   /// The surface of a body at a time; must give the same on all ranks.
-  using Body = std::function<Surface(double time)>;
+  using Body = MovingSurface;
   /// @return the body's number, as InterfaceRule::body has it
   int add_body(Body body);
 
@@ -33,8 +37,8 @@ class FieldCut {
   /// The next cut decides anew which parts are dropped.
   void begin_step() { decided_ = false; }
 
-  /// Cells that are active now stay so to the end of the step: covered ones keep their unknowns, held by ghost
-  /// penalties alone (thesis 6.3.2).
+  /// Cells that are active now stay so to the end of the step: covered ones keep their unknowns, held by
+  /// ghost penalties alone (thesis 6.3.2).
   void hold() { held_ = active_; }
 
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
@@ -60,6 +64,9 @@ class FieldCut {
   /// What the first cut of a step made of a local cell.
   enum class Decision : char { body, kept, dropped };
   [[nodiscard]] bool states_match() const;
+  void choose_sets();
+  void check_motion(const PartLayout& before) const;
+  void accept_states();
   [[nodiscard]] std::vector<char> open_parts(const FluidParts& parts) const;
   [[nodiscard]] std::vector<int> decide();
   [[nodiscard]] std::vector<int> follow_decision() const;
@@ -73,10 +80,12 @@ class FieldCut {
   bool decided_ = false;            ///< in this step
   bool is_first_cut_ = false;       ///< the present cut is the one that decided
   double time_ = 0;                 ///< of the last update
-  std::vector<char> held_;            ///< [local cell]; empty when none is
+  std::vector<char> held_;          ///< [local cell]; empty when none is
   double dropped_volume_ = 0;
   std::map<int, double> area_;  ///< of the interface in cells, when first cut in the step
   Extension extension_;
+  std::unique_ptr<PartSets> sets_;  ///< null where parts are not told apart
+  std::shared_ptr<const PartLayout> layout_;
 };
 
 }  // namespace seam

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/cut/disjoint_sets.hpp"
 #include "seam/cut/geometry.hpp"
 #include "seam/cut/slivers.hpp"
 
@@ -13,19 +13,6 @@ namespace seam {
 namespace {
 
 using namespace cutting;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(int count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int root(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  void unite(int a, int b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<int> parent_;
-};
 
 struct Share {
   int label;

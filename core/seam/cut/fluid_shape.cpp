@@ -75,8 +75,8 @@ void add_sides(const Outline& outline, const std::vector<int>& coverage, const C
 
 }  // namespace
 
-void CutMesh::fluid_shape(int cell, FluidShape& shape) const {
-  const CutCell& cut = geometry_->at(cell);
+void CutMesh::fluid_shape(int cell, FluidShape& shape, int part) const {
+  const CutCell& cut = geometry_->at(cell, part);
   const int dim = mesh_->dimension();
   shape.points.clear();
   shape.first.assign(1, 0);

@@ -60,6 +60,12 @@ struct CutCell {
   double fluid_volume = 0, volume = 0, interface_area = 0;
 };
 
+/// One of several connected parts of the fluid in a cell.
+struct CellPart {
+  CutCell cut;      ///< its own pieces and fluid faces
+  Vector centre{};  ///< of its volume
+};
+
 /// Vector area of a part: of a simplex in the direction of its orientation (in the plane to the right).
 Vector vector_area(int dimension, const Vector& a, const Vector& b, const Vector& c);
 /// Vector area of a piece, out of the fluid.
@@ -96,8 +102,11 @@ struct CutMesh::Geometry {
   std::vector<int> coverage;                  ///< [vertex]: 0 in the fluid
   std::vector<cutting::CutCell> cells;        ///< ascending
   std::vector<int> index;                     ///< [cell]: into cells, -1 for others
+  /// [index]: several connected parts, or none where there is one; empty when they are not told apart.
+  std::vector<std::vector<cutting::CellPart>> parts;
   /// @throws std::logic_error when the cell is not cut
-  [[nodiscard]] const cutting::CutCell& at(int cell) const;
+  [[nodiscard]] const cutting::CutCell& at(int cell, int part = all_parts) const;
+  [[nodiscard]] const std::vector<cutting::CellPart>& parts_of(int cell) const;
 };
 
 }  // namespace seam

@@ -57,7 +57,7 @@ Vector into_cell(CellType type, Vector reference) {
 
 }  // namespace
 
-void CutMesh::volume_rule(int cell, int degree, CutRule& rule) const {
+void CutMesh::volume_rule(int cell, int degree, CutRule& rule, int part) const {
   static thread_local std::vector<double> moment;
   rule.reference.clear();
   rule.weight.clear();
@@ -65,18 +65,18 @@ void CutMesh::volume_rule(int cell, int degree, CutRule& rule) const {
   const int dim = mesh_->dimension();
   const CellMap map(*mesh_, cell);
   const FittedRule& fitted = FittedRule::get(dim, degree);
-  volume_moments(dim, map, geometry_->at(cell), geometry_->outline.centre(cell), degree, moment);
+  volume_moments(dim, map, geometry_->at(cell, part), geometry_->outline.centre(cell), degree, moment);
   rule.reference = fitted.points();
   rule.weight.resize(fitted.count());
   fitted.weights(moment.data(), rule.weight.data());
 }
 
-void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule) const {
+void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule, int part) const {
   static thread_local std::vector<double> moment;
   rule.reference.clear();
   rule.weight.clear();
   if (state_[cell] == CellState::body) return;
-  const CutCell& cut = geometry_->at(cell);
+  const CutCell& cut = geometry_->at(cell, part);
   const auto on_face = [&](const WetPart& w) { return w.face == face; };
   if ((cut.dry_faces >> face & 1U) != 0 || std::none_of(cut.wet.begin(), cut.wet.end(), on_face)) return;
   const CellTopology& shape = topology(mesh_->type());
@@ -97,8 +97,9 @@ void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule) const {
     face_to_cell(shape, face, &fitted.points()[q * (dim - 1)], &rule.reference[q * dim]);
 }
 
-void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion) const {
-  const CutCell& cut = geometry_->at(cell);
+void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion,
+                             int part) const {
+  const CutCell& cut = geometry_->at(cell, part);
   const int dim = mesh_->dimension();
   const CellMap map(*mesh_, cell);
   const Quadrature& base = quadrature(dim == 2 ? CellType::segment : CellType::triangle, degree);

@@ -8,14 +8,18 @@
 
 namespace seam {
 
-Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns)
-    : name_(std::move(name)), mesh_(&mesh), unknowns_(std::move(unknowns)), active_cells_(mesh.cells(), 1) {
+Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets)
+    : name_(std::move(name)),
+      mesh_(&mesh),
+      unknowns_(std::move(unknowns)),
+      active_cells_(mesh.cells(), 1),
+      sets_(sets) {
   for (const Unknown& unknown : unknowns_) {
     int b = 0;
     while (b < static_cast<int>(blocks_.size()) && blocks_[b].space->order() != unknown.order) ++b;
     if (b == static_cast<int>(blocks_.size())) {
       blocks_.emplace_back();
-      blocks_[b].space = std::make_unique<Space>(mesh, unknown.order);
+      blocks_[b].space = std::make_unique<Space>(mesh, unknown.order, sets);
     }
     places_.push_back({b, blocks_[b].size, unknown.components});
     blocks_[b].size += unknown.components;
@@ -62,12 +66,14 @@ double Field::constant(const std::string& name) const {
 void Field::occupy(std::vector<char> cell_is_active, const CutMesh* cut) {
   active_cells_ = std::move(cell_is_active);
   cut_ = cut;
-  for (Block& block : blocks_) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    Block& block = blocks_[b];
     std::fill(block.active.begin(), block.active.end(), 0);
     for (int c = 0; c < mesh_->cells(); ++c)
-      if (active_cells_[c])
-        for (int a = 0; a < block.space->nodes_per_cell(); ++a)
-          block.active[block.space->cell_nodes(c)[a]] = 1;
+      for (int p = 0; p < parts(c) && active_cells_[c]; ++p) {
+        const int* nodes = cell_nodes(static_cast<int>(b), c, p);
+        for (int a = 0; a < block.space->nodes_per_cell(); ++a) block.active[nodes[a]] = 1;
+      }
     // The owner knows every cell of its nodes; a rank's outermost ghosts do not.
     block.space->halo().update(block.active, 1);
   }

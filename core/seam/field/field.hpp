@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "seam/field/part_layout.hpp"
 #include "seam/space/space.hpp"
 
 namespace seam {
@@ -50,8 +51,8 @@ struct Block {
 /// A field: unknowns on a mesh.
 class Field {
  public:
-  /// Collective.
-  Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns);
+  /// Collective. @param sets of unknowns that a node can have at most, see PartLayout
+  Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets = 1);
 
   struct Place {
     int block;   ///< index into blocks()
@@ -70,10 +71,28 @@ class Field {
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
+  /// How many sets of unknowns a node may have: 1 where the parts of a cell are not told apart.
+  [[nodiscard]] int sets() const { return sets_; }
+  /// Which parts use which sets; null as long as all states are of set 0 or none has been chosen. The states
+  /// are not touched.
+  void set_layout(std::shared_ptr<const PartLayout> layout) { layout_ = std::move(layout); }
+  [[nodiscard]] const std::shared_ptr<const PartLayout>& layout() const { return layout_; }
+  /// Number of parts of a local cell that have unknowns of their own.
+  [[nodiscard]] int parts(int cell) const { return layout_ ? layout_->count(cell) : 1; }
+  /// Local nodes of a part of a cell. @param space of one of the blocks
+  [[nodiscard]] const int* cell_nodes(const Space& space, int cell, int part = 0) const {
+    const PartLayout::Part* listed = layout_ ? layout_->part(cell, part) : nullptr;
+    return listed ? listed->node[space.order() - 1].data() : space.cell_nodes(cell);
+  }
+  [[nodiscard]] const int* cell_nodes(int block, int cell, int part = 0) const {
+    return cell_nodes(*blocks_[block].space, cell, part);
+  }
+
   /// Collective. Makes nodes of other ranks' cells known here, for an interface (see Space::add_foreign).
   void add_foreign(int block, const std::vector<Space::ForeignNode>& nodes);
 
-  /// Restricts the field to some of its cells: a node is active exactly where one of them has it. Collective.
+  /// Restricts the field to some of its cells: a node is active exactly where one of them, or
+  /// a part of one, has it. Collective.
   /// @param cell_is_active per local cell, ghosts included
   /// @param cut how bodies cut these cells; null where active cells are whole. Must outlive its use.
   void occupy(std::vector<char> cell_is_active, const CutMesh* cut = nullptr);
@@ -94,6 +113,8 @@ class Field {
   std::vector<Block> blocks_;
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;
+  int sets_;
+  std::shared_ptr<const PartLayout> layout_;
 };
 
 }  // namespace seam

@@ -38,10 +38,10 @@ class Interface {
   /// Names of the fields on its sides, side 0 first.
   [[nodiscard]] virtual std::vector<std::string> fields() const = 0;
   /// The surface of a body that the interface cuts out of the mesh of side 0, where it can be told before
-  /// fields exist: meshes are distributed by what their cells will cost.
-  [[nodiscard]] virtual std::optional<Surface> body(const MeshFinder& meshes, int dimension,
-                                                    double time) const {
-    (void)meshes, (void)dimension, (void)time;
+  /// fields exist: meshes are distributed by what their cells will cost. The background of the setting is the
+  /// whole mesh.
+  [[nodiscard]] virtual std::optional<Surface> body(const BodySetting& setting, double time) const {
+    (void)setting, (void)time;
     return std::nullopt;
   }
   /// Finds the pieces of the interface. Collective.

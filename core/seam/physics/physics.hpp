@@ -82,6 +82,9 @@ class Physics {
  public:
   virtual ~Physics() = default;
   [[nodiscard]] virtual Support support() const { return Support::mesh; }
+  /// Whether fluid, or whatever the field is, on two sides of a thin body has unknowns of its own on each
+  /// (PartLayout).
+  [[nodiscard]] virtual bool separates_parts() const { return false; }
   /// May be empty: a body with given motion.
   [[nodiscard]] virtual std::vector<Unknown> unknowns(int dimension) const = 0;
   virtual void build(FieldSetup& setup) const = 0;

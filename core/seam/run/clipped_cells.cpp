@@ -66,47 +66,55 @@ Vector vector_of(const double* x, int dimension) {
 
 }  // namespace
 
-ClippedCells::ClippedCells(const Space& space, const CutMesh& cut, const std::vector<char>& active)
-    : space_(&space) {
+ClippedCells::ClippedCells(const Field& field, const Space& space) : space_(&space) {
   const Mesh& mesh = space.mesh();
+  const CutMesh& cut = *field.cut();
   if (mesh.cells() == 0) return;
   const int dim = mesh.dimension(), per_cell = space.nodes_per_cell();
-  PointNumbers numbers(same_point * smallest_diameter(mesh));
+  const double resolution = same_point * smallest_diameter(mesh);
+  PointNumbers numbers(resolution);
+  const auto add_nodes = [&](const int* nodes) {
+    for (int a = 0; a < per_cell; ++a) numbers.add(vector_of(space.position(nodes[a]), dim), nodes[a]);
+  };
+  const bool shared = field.sets() == 1;
   for (const int c : cut.cut_cells())
-    for (int a = 0; a < per_cell; ++a) {
-      const int node = space.cell_nodes(c)[a];
-      numbers.add(vector_of(space.position(node), dim), node);
-    }
+    if (shared) add_nodes(space.cell_nodes(c));
   std::vector<double> corners;
   ShapeTable table;
-  for (const int c : cut.cut_cells()) {
-    if (c >= mesh.owned_cells() || !active[c]) continue;
-    cut.fluid_simplices(c, corners);
-    const CellMap map(mesh, c);
-    for (std::size_t k = 0; k < corners.size(); k += dim) {
-      const Vector x = vector_of(&corners[k], dim);
-      int number = numbers.find(x);
-      if (number < 0) {
-        number = space.nodes() + static_cast<int>(cell_.size());
-        numbers.add(x, number);
-        points.insert(points.end(), x.begin(), x.begin() + dim);
-        cell_.push_back(c);
-        tabulate(mesh.type(), space.order(), map.to_reference(x).data(), 1, false, table);
-        shape_value_.insert(shape_value_.end(), table.value.begin(), table.value.begin() + per_cell);
+  for (const int c : cut.cut_cells())
+    for (int part = 0; part < field.parts(c); ++part) {
+      if (c >= mesh.owned_cells() || !field.active_cells()[c]) continue;
+      const int* nodes = field.cell_nodes(space, c, part);
+      if (!shared) {
+        numbers = PointNumbers(resolution);
+        add_nodes(nodes);
       }
-      simplices.push_back(number);
+      cut.fluid_simplices(c, corners, part);
+      const CellMap map(mesh, c);
+      for (std::size_t k = 0; k < corners.size(); k += dim) {
+        const Vector x = vector_of(&corners[k], dim);
+        int number = numbers.find(x);
+        if (number < 0) {
+          number = space.nodes() + static_cast<int>(nodes_.size());
+          numbers.add(x, number);
+          points.insert(points.end(), x.begin(), x.begin() + dim);
+          nodes_.push_back(nodes);
+          tabulate(mesh.type(), space.order(), map.to_reference(x).data(), 1, false, table);
+          shape_value_.insert(shape_value_.end(), table.value.begin(), table.value.begin() + per_cell);
+        }
+        simplices.push_back(number);
+      }
+      background.resize(simplices.size() / (dim + 1), c);
     }
-    background.resize(simplices.size() / (dim + 1), c);
-  }
 }
 
 void ClippedCells::append_values(int components, std::vector<double>& values) const {
   const int per_cell = space_->nodes_per_cell();
-  values.resize(static_cast<std::size_t>(space_->nodes() + cell_.size()) * components);
-  for (std::size_t p = 0; p < cell_.size(); ++p) {
+  values.resize(static_cast<std::size_t>(space_->nodes() + nodes_.size()) * components);
+  for (std::size_t p = 0; p < nodes_.size(); ++p) {
     double* value = &values[(space_->nodes() + p) * components];
     for (int a = 0; a < per_cell; ++a) {
-      const double* nodal = &values[static_cast<std::size_t>(space_->cell_nodes(cell_[p])[a]) * components];
+      const double* nodal = &values[static_cast<std::size_t>(nodes_[p][a]) * components];
       for (int k = 0; k < components; ++k) value[k] += shape_value_[p * per_cell + a] * nodal[k];
     }
   }

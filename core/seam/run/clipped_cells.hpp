@@ -4,15 +4,17 @@
 #include <vector>
 
 #include "seam/cut/cut_mesh.hpp"
-#include "seam/space/space.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 
 /// The fluid parts of the cut cells that this rank owns, as linear triangles or tetrahedra for pictures.
-/// Corners of neighbouring cells that coincide are one point, and so are corners and nodes of the space.
+/// Corners of neighbouring cells that coincide are one point, and so are corners and nodes of the space;
+/// where parts of cells may have unknowns of their own, only those of a part are.
 struct ClippedCells {
-  /// @param active per local cell
-  ClippedCells(const Space& space, const CutMesh& cut, const std::vector<char>& active);
+  /// @param field that is cut
+  /// @param space one of its own
+  ClippedCells(const Field& field, const Space& space);
 
   /// Appends the values of nodal functions of the space at the points.
   /// @param values [node][component] on entry, [node or point][component] on return
@@ -24,7 +26,7 @@ struct ClippedCells {
 
  private:
   const Space* space_;
-  std::vector<int> cell_;            ///< [point]: local cell with whose functions it is evaluated
+  std::vector<const int*> nodes_;    ///< [point]: of the part of a cell with whose functions it is evaluated
   std::vector<double> shape_value_;  ///< [point][node of the cell]
 };
 

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "seam/assembly/evaluator.hpp"
+#include "seam/cut/cut_mesh.hpp"
 
 namespace seam {
 namespace {
@@ -38,7 +39,10 @@ BoundTerm bind(const NamedQuantity& quantity) {
 /// Chosen points in chosen cells.
 class SampleDomain final : public IntegrationDomain {
  public:
-  SampleDomain(const FieldEntry& entry, std::vector<int> cells, const std::vector<double>& reference)
+  struct Sample {
+    int cell, part;
+  };
+  SampleDomain(const FieldEntry& entry, std::vector<Sample> cells, const std::vector<double>& reference)
       : entry_(entry), cells_(std::move(cells)) {
     const Mesh& mesh = entry.field->mesh();
     const int dim = std::max(1, topology(mesh.type()).dimension);
@@ -52,7 +56,7 @@ class SampleDomain final : public IntegrationDomain {
     element.dimension = entry_.field->mesh().dimension();
     element.points = tables_[0].points;
     element.sides.resize(1);
-    attach_cell(element.sides[0], *entry_.field, cells_[index]);
+    attach_cell(element.sides[0], *entry_.field, cells_[index].cell, cells_[index].part);
     element.sides[0].table[0] = &tables_[0];
     element.sides[0].table[1] = &tables_[1];
     element.sides[0].map_geometry();
@@ -61,13 +65,13 @@ class SampleDomain final : public IntegrationDomain {
     element.set_sizes(element.sides[0].diameter, element.sides[0].diameter);
   }
   [[nodiscard]] const int* nodes(int index, int, int block) const override {
-    return entry_.field->blocks()[block].space->cell_nodes(cells_[index]);
+    return entry_.field->cell_nodes(block, cells_[index].cell, cells_[index].part);
   }
   [[nodiscard]] std::string description() const override { return "points of field '" + entry_.name + "'"; }
 
  private:
   const FieldEntry& entry_;
-  std::vector<int> cells_;
+  std::vector<Sample> cells_;
   ShapeTable tables_[2];
 };
 
@@ -118,9 +122,9 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
                                  const TimePoint& at) {
   const Mesh& mesh = entry.field->mesh();
   const CellTopology& cell = topology(mesh.type());
-  std::vector<int> cells;
+  std::vector<SampleDomain::Sample> cells;
   for (int c = 0; c < mesh.cells(); ++c)
-    if (entry.field->active_cells()[c]) cells.push_back(c);
+    for (int p = 0; p < entry.field->parts(c) && entry.field->active_cells()[c]; ++p) cells.push_back({c, p});
   const int per_cell = space.nodes_per_cell(), components = quantity.components;
   const std::vector<double> reference(
       cell.node_coordinates.begin(),
@@ -134,7 +138,7 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
   for (int e = 0; e < domain.size(); ++e) {
     const auto& values = evaluator.compute_values(e, at);
     for (int a = 0; a < per_cell; ++a) {
-      const int node = space.cell_nodes(cells[e])[a];
+      const int node = entry.field->cell_nodes(space, cells[e].cell, cells[e].part)[a];
       ++count[node];
       for (int k = 0; k < components; ++k)
         sum[static_cast<std::size_t>(node) * components + k] +=
@@ -199,6 +203,7 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
     return;
   }
   const int dim = mesh.dimension();
+  std::copy_n(position.begin(), dim, position_.begin());
   // How far outside the reference cell the point lies, for the best owned cell.
   double best = std::numeric_limits<double>::max();
   for (int c = 0; c < mesh.owned_cells(); ++c) {
@@ -239,7 +244,9 @@ std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQua
                                          const TimePoint& at) const {
   std::vector<double> result(quantity.components, 0.0);
   if (cell_ >= 0) {
-    const SampleDomain domain(entry, {cell_}, reference_);
+    const Field& field = *entry.field;
+    const int part = field.parts(cell_) > 1 ? field.cut()->part_at(cell_, position_) : 0;
+    const SampleDomain domain(entry, {{cell_, part}}, reference_);
     ElementEvaluator evaluator(domain, {bind(quantity)});
     const auto& values = evaluator.compute_values(0, at);
     std::copy_n(values.begin(), result.size(), result.begin());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ struct NamedQuantity {
 /// @throws Error listing the quantities the field has
 NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name);
 
-/// Values of a quantity at the nodes of a space, averaged over the cells that meet there, [local
+/// Values of a quantity at the nodes of a space of the field, averaged over the cells that meet there, [local
 /// node][component]. The averages are complete on the nodes of owned cells.
 std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, const NamedQuantity& quantity,
                                  const TimePoint& at);
@@ -51,6 +52,7 @@ class ProbePoint {
 
  private:
   int cell_ = -1;  ///< local, on the rank that evaluates; -1 elsewhere
+  std::array<double, 3> position_{};
   std::vector<double> reference_;
 };
 

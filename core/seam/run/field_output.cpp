@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/run/field_output.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "seam/output/vtu.hpp"
 #include "seam/run/clipped_cells.hpp"
 #include "seam/run/evaluate.hpp"
 
@@ -21,7 +18,8 @@ const Space* finest_space(const FieldEntry& entry) {
 
 /// Cells and nodes of a space; the piece holds the cells this rank owns.
 /// @param shown per local cell; empty when all are
-VtuPiece piece_of(const Space& space, const std::vector<char>& shown) {
+/// @param field whose space it is, where it is one of a field's
+VtuPiece piece_of(const Space& space, const std::vector<char>& shown, const Field* field = nullptr) {
   const Mesh& mesh = space.mesh();
   VtuPiece piece;
   piece.dimension = mesh.dimension();
@@ -29,10 +27,11 @@ VtuPiece piece_of(const Space& space, const std::vector<char>& shown) {
   piece.order = space.order();
   for (int n = 0; n < space.nodes(); ++n)
     piece.points.insert(piece.points.end(), space.position(n), space.position(n) + piece.dimension);
-  for (int c = 0; c < mesh.owned_cells(); ++c)
-    if (shown.empty() || shown[c])
-      piece.connectivity.insert(piece.connectivity.end(), space.cell_nodes(c),
-                                space.cell_nodes(c) + space.nodes_per_cell());
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    if (!shown.empty() && !shown[c]) continue;
+    const int* nodes = field ? field->cell_nodes(space, c) : space.cell_nodes(c);
+    piece.connectivity.insert(piece.connectivity.end(), nodes, nodes + space.nodes_per_cell());
+  }
   return piece;
 }
 
@@ -80,10 +79,10 @@ VtuPiece field_piece(const FieldEntry& entry, const Space& space, const TimePoin
     return piece;
   }
   const Mesh& mesh = field.mesh();
-  const ClippedCells clipped(space, *field.cut(), field.active_cells());
+  const ClippedCells clipped(field, space);
   std::vector<char> whole = field.active_cells();
   for (const int c : field.cut()->cut_cells()) whole[c] = 0;
-  VtuPiece piece = piece_of(space, whole);
+  VtuPiece piece = piece_of(space, whole, &field);
   piece.points.insert(piece.points.end(), clipped.points.begin(), clipped.points.end());
   piece.simplices = clipped.simplices;
   add_quantities(entry, space, at, &clipped, piece);
@@ -120,45 +119,26 @@ VtuPiece rigid_piece(const FieldEntry& entry, const Space& shape) {
 
 }  // namespace
 
-FieldOutput::FieldOutput(Problem& problem, std::filesystem::path folder, double resume_time)
-    : problem_(problem), folder_(std::move(folder)) {
-  if (problem_.communicator().rank() == 0) std::filesystem::create_directories(folder_ / "fields");
+FieldOutput::FieldOutput(Problem& problem, const std::filesystem::path& folder, double resume_time)
+    : problem_(problem) {
+  for (const FieldEntry& entry : problem_.fields())
+    series_.emplace_back(problem_.communicator(), folder, entry.name, resume_time);
   MPI_Barrier(problem_.communicator().handle());
-  for (const FieldEntry& entry : problem_.fields()) {
-    const std::string path = series(entry.name).string();
-    series_.push_back(resume_time >= 0 && problem_.communicator().rank() == 0
-                          ? PvdSeries::resume(path, resume_time)
-                          : PvdSeries(path));
-  }
 }
 
 void FieldOutput::write(long step_number, const TimePoint& at) {
-  const Communicator& communicator = problem_.communicator();
   for (std::size_t f = 0; f < problem_.fields().size(); ++f) {
     const FieldEntry& entry = problem_.fields()[f];
     const bool rigid = entry.physics->support() == Support::point;
     const Space* space = finest_space(entry);
     std::unique_ptr<Space> shape;
     if (rigid || !space) shape = std::make_unique<Space>(*entry.shape, entry.shape->order());
-    const VtuPiece piece = rigid   ? rigid_piece(entry, *shape)
-                           : space ? field_piece(entry, *space, at)
-                                   : piece_of(*shape, {});
-    const std::string stem = fmt::format("{}-{:06}", entry.name, step_number);
-    const auto piece_name = [&](int rank) { return fmt::format("{}-r{}.vtu", stem, rank); };
-    const std::filesystem::path fields = folder_ / "fields";
-    if (communicator.size() == 1) {
-      write_vtu((fields / (stem + ".vtu")).string(), piece);
-      series_[f].add(at.time, "fields/" + stem + ".vtu");
-      continue;
-    }
-    write_vtu((fields / piece_name(communicator.rank())).string(), piece);
-    if (communicator.rank() != 0) continue;
-    std::vector<std::string> pieces;
-    for (int r = 0; r < communicator.size(); ++r) pieces.push_back(piece_name(r));
-    write_pvtu((fields / (stem + ".pvtu")).string(), pieces, piece);
-    series_[f].add(at.time, "fields/" + stem + ".pvtu");
+    series_[f].write(step_number, at.time,
+                     rigid   ? rigid_piece(entry, *shape)
+                     : space ? field_piece(entry, *space, at)
+                             : piece_of(*shape, {}));
   }
-  MPI_Barrier(communicator.handle());
+  MPI_Barrier(problem_.communicator().handle());
 }
 
 }  // namespace seam

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
-#include "seam/output/pvd.hpp"
+#include "seam/output/piece_series.hpp"
 #include "seam/solve/problem.hpp"
 
 namespace seam {
@@ -13,18 +14,13 @@ namespace seam {
 class FieldOutput {
  public:
   /// @param resume_time keep what existing series hold up to this time; negative: start afresh
-  FieldOutput(Problem& problem, std::filesystem::path folder, double resume_time);
+  FieldOutput(Problem& problem, const std::filesystem::path& folder, double resume_time);
   /// Collective.
   void write(long step_number, const TimePoint& at);
-  /// The time series file of a field.
-  [[nodiscard]] std::filesystem::path series(const std::string& field) const {
-    return folder_ / (field + ".pvd");
-  }
 
  private:
   Problem& problem_;
-  std::filesystem::path folder_;
-  std::vector<PvdSeries> series_;
+  std::vector<PieceSeries> series_;  ///< [field]
 };
 
 }  // namespace seam

@@ -161,6 +161,7 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
                       block.size, levels[l]->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
       block.old = block.now;
       block.known.assign(block.known.size(), 1);
+      entry.field->set_layout(nullptr);
     }
   RunState state;
   state.time = header["time"];

@@ -67,14 +67,19 @@ void Simulation::build_fields(const Registry& registry) {
 /// same.
 std::vector<double> Simulation::cell_costs(const std::string& mesh) const {
   if (communicator_.size() == 1) return {};
-  std::vector<Surface> bodies;
-  const MeshFinder find = [&](const std::string& name) { return meshes_.at(name); };
+  std::vector<const Interface*> cutting;
   for (const auto& [name, interface] : interfaces_)
     for (const auto& [field, parameters] : scene_.root.map("fields"))
       if (field == interface->fields().front() && parameters.text("mesh") == mesh)
-        if (auto body = interface->body(find, meshes_.at(mesh)->dimension, stepper_.start()))
-          bodies.push_back(std::move(*body));
-  return bodies.empty() ? std::vector<double>{} : cut_cell_costs(meshes_.at(mesh), bodies);
+        cutting.push_back(interface.get());
+  if (cutting.empty()) return {};
+  // Every rank holds the whole mesh at the start and finds the same costs.
+  const Mesh whole(mesh, meshes_.at(mesh), Communicator(MPI_COMM_SELF));
+  const MeshFinder find = [&](const std::string& name) { return meshes_.at(name); };
+  std::vector<Surface> bodies;
+  for (const Interface* interface : cutting)
+    if (auto body = interface->body({whole, find}, stepper_.start())) bodies.push_back(std::move(*body));
+  return bodies.empty() ? std::vector<double>{} : cut_cell_costs(whole, bodies);
 }
 
 /// What an interface may ask of the scene while it is built.
@@ -146,13 +151,22 @@ void Simulation::start(const RunOptions& options) {
     if (!stepper_.is_static() && problem_.needs_initial_rates(stepper_.theta()))
       newton_->solve_initial_rates(stepper_.start());
   }
-  if (scene_.root.object("output").boolean("fields"))
-    fields_ = std::make_unique<FieldOutput>(problem_, folder_, resumed ? state_.time : -1.0);
+  open_outputs(resumed ? state_.time : -1.0);
   if (communicator_.rank() == 0) std::filesystem::create_directories(folder_);
   if (resumed) return;
   const TimePoint at = time_point(stepper_.start(), 0, stepper_.theta());
   problem_.assembler().assemble(at, false);
   record(at);
+}
+
+void Simulation::open_outputs(double resume_time) {
+  const Parameters& output = scene_.root.object("output");
+  if (output.boolean("fields")) fields_ = std::make_unique<FieldOutput>(problem_, folder_, resume_time);
+  if (!output.boolean("cut")) return;
+  cut_ = std::make_unique<CutOutput>(problem_, folder_, resume_time);
+  if (!cut_->has_fields())
+    throw Error(output.where("cut"),
+                "no interface cuts a body out of a field, so that there is no cut to write");
 }
 
 const Results& Simulation::run(const RunOptions& options) {
@@ -194,7 +208,7 @@ void Simulation::record_failure(const std::string& reason) {
   finish_timings();
   if (state_.results.time.empty()) return;  // it failed before there was a state
   problem_.update_spaces(last_point_);
-  if (fields_ && last_fields_ != state_.step_number) write_fields(last_point_);
+  if (last_fields_ != state_.step_number) write_fields(last_point_);
   save_restart();
 }
 
@@ -260,13 +274,14 @@ void Simulation::record(const TimePoint& at) {
   const long every = scene_.root.object("output").integer("every");
   const bool last = state_.time >= stepper_.end();
   last_point_ = at;
-  if (fields_ && (state_.step_number % every == 0 || last)) write_fields(at);
+  if (state_.step_number % every == 0 || last) write_fields(at);
   if (communicator_.rank() == 0) write_series((folder_ / "series.csv").string(), state_.results);
   timings_.output += watch.seconds();
 }
 
 void Simulation::write_fields(const TimePoint& at) {
-  fields_->write(state_.step_number, at);
+  if (fields_) fields_->write(state_.step_number, at);
+  if (cut_) cut_->write(state_.step_number, at);
   last_fields_ = state_.step_number;
 }
 

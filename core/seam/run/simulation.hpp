@@ -11,6 +11,7 @@
 #include "seam/base/stopwatch.hpp"
 #include "seam/linear/linear_solver.hpp"
 #include "seam/run/checks.hpp"
+#include "seam/run/cut_output.hpp"
 #include "seam/run/field_output.hpp"
 #include "seam/run/probes.hpp"
 #include "seam/run/restart.hpp"
@@ -64,6 +65,7 @@ class Simulation {
   [[nodiscard]] std::vector<double> cell_costs(const std::string& mesh) const;
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
+  void open_outputs(double resume_time);
   bool try_step(double until);
   [[nodiscard]] double time_error(const TimePoint& at) const;
   void record(const TimePoint& at);
@@ -85,6 +87,7 @@ class Simulation {
   RunState state_;
   std::vector<Probe> probes_;
   std::unique_ptr<FieldOutput> fields_;
+  std::unique_ptr<CutOutput> cut_;
   std::filesystem::path folder_;
   std::vector<NewtonReport> reports_;
   Stopwatch run_watch_;

@@ -17,7 +17,8 @@ std::vector<double> read_times(const std::string& file, const Location& where) {
   std::ifstream in(file);
   std::string line;
   if (!in || !std::getline(in, line) || !line.starts_with("time"))
-    throw Error(where, fmt::format("'{}' holds no series of an earlier run; expected the series.csv of one", file));
+    throw Error(where,
+                fmt::format("'{}' holds no series of an earlier run; expected the series.csv of one", file));
   std::vector<double> times;
   while (std::getline(in, line)) times.push_back(std::stod(line));
   return times;

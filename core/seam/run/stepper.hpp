@@ -44,7 +44,7 @@ class Stepper {
   double theta_ = 1, start_ = 0, end_ = 1;
   double initial_ = 1, minimum_ = 1e-6, maximum_ = 1, tolerance_ = 1e-3;
   std::vector<double> kinks_{1.0};  ///< ascending, the end included
-  std::vector<double> replay_;  ///< ends of steps; empty when they are chosen here
+  std::vector<double> replay_;      ///< ends of steps; empty when they are chosen here
 };
 
 }  // namespace seam

@@ -60,8 +60,9 @@ std::string companion(const std::string& text, std::size_t at) {
   if (before > 0 && text[before - 1] == '=') --before;
   if (before > 0 && (text[before - 1] == '<' || text[before - 1] == '>'))
     return operand(text, before - 1, -1);
-  const bool in_extremum = before >= 4 && text[before - 1] == '(' &&
-                           (text.compare(before - 4, 3, "min") == 0 || text.compare(before - 4, 3, "max") == 0);
+  const bool in_extremum =
+      before >= 4 && text[before - 1] == '(' &&
+      (text.compare(before - 4, 3, "min") == 0 || text.compare(before - 4, 3, "max") == 0);
   if (in_extremum && after < text.size() && text[after] == ',') return operand(text, after + 1, +1);
   return "";
 }

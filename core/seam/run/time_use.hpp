@@ -13,8 +13,8 @@ struct TimeUse {
   std::vector<double> kinks;  ///< ascending: times at which one changes its form, s
 };
 
-/// Looks for t in the texts of a scene. Kinks are what t is compared with, `t < 1000 ? 0 : ...`, and the other
-/// argument of `min(t, ...)` and `max(t, ...)`, where those are constants.
+/// Looks for t in the texts of a scene. Kinks are what t is compared with, `t < 1000 ? 0 : ...`, and the
+/// other argument of `min(t, ...)` and `max(t, ...)`, where those are constants.
 TimeUse find_time_use(const Scene& scene);
 
 }  // namespace seam

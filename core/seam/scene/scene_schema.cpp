@@ -136,6 +136,8 @@ Schema output_schema() {
   schema.text("folder", "where to; default `results/` and the scene's name").optional();
   schema.integer("every", "steps between two outputs of the fields").at_least(1).otherwise("1");
   schema.boolean("fields", "write the fields as VTU, with a PVD file for the time series").otherwise("true");
+  schema.boolean("cut", "write the cut cells, interface points and ghost faces of fields that bodies cut")
+      .otherwise("false");
   schema.object("picture", "a picture of the last state", picture_schema()).optional();
   schema.map("probes", "numbers recorded at every step, as CSV", probe_schema()).otherwise("{}");
   schema.value_map("formulas", "numbers computed from probes at every step", formula_schema())

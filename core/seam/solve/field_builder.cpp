@@ -52,7 +52,8 @@ std::vector<int> boundary_nodes(const Field& field, int block, const std::string
   }
   for (const CellFace& face : field.mesh().boundary(boundary))
     for (std::size_t a = 0; a < per_face; ++a)
-      nodes.push_back(space.cell_nodes(face.cell)[cell.face_nodes[face.face][a]]);
+      for (int set = 0; set < space.sets(); ++set)
+        nodes.push_back(space.in_set(space.cell_nodes(face.cell)[cell.face_nodes[face.face][a]], set));
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

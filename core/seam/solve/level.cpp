@@ -16,7 +16,8 @@ constexpr int none = std::numeric_limits<int>::max();
 /// Labels connected nodes by their lowest global number. Cells that share a node are connected.
 class ConnectedNodes {
  public:
-  ConnectedNodes(const Field& field, const Block& block) : field_(field), space_(*block.space) {
+  ConnectedNodes(const Field& field, int block)
+      : field_(field), block_(block), space_(*field.blocks()[block].space) {
     label_.resize(space_.nodes());
     for (int n = 0; n < space_.nodes(); ++n) label_[n] = space_.global_node(n);
     bool changed = true;
@@ -39,11 +40,11 @@ class ConnectedNodes {
       while (parent[n] != n) n = parent[n] = parent[parent[n]];
       return n;
     };
-    for (int c = 0; c < space_.mesh().cells(); ++c) {
-      if (!field_.active_cells()[c]) continue;
-      const int* nodes = space_.cell_nodes(c);
-      for (int a = 1; a < space_.nodes_per_cell(); ++a) parent[root(nodes[a])] = root(nodes[0]);
-    }
+    for (int c = 0; c < space_.mesh().cells(); ++c)
+      for (int p = 0; p < field_.parts(c) && field_.active_cells()[c]; ++p) {
+        const int* nodes = field_.cell_nodes(block_, c, p);
+        for (int a = 1; a < space_.nodes_per_cell(); ++a) parent[root(nodes[a])] = root(nodes[0]);
+      }
     std::vector<int> lowest(space_.nodes(), none);
     for (int n = 0; n < space_.nodes(); ++n) lowest[root(n)] = std::min(lowest[root(n)], label_[n]);
     bool changed = false;
@@ -54,23 +55,26 @@ class ConnectedNodes {
     return changed;
   }
   const Field& field_;
+  int block_;
   const Space& space_;
   std::vector<int> label_;
 };
 
 /// Labels of the parts that reach an open boundary, on every rank.
-std::vector<int> open_parts(const Field& field, const Space& space, const ConnectedNodes& label,
+std::vector<int> open_parts(const Field& field, int block, const ConnectedNodes& label,
                             const std::vector<std::string>& boundaries) {
   std::vector<int> open;
   CutRule rule;
   for (const std::string& name : boundaries)
     for (const CellFace& face : field.mesh().boundary(name)) {
       if (!field.active_cells()[face.cell] || face.cell >= field.mesh().owned_cells()) continue;
-      if (field.is_cut(face.cell)) {
-        field.cut()->face_rule(face.cell, face.face, 1, rule);
-        if (rule.count() == 0) continue;
+      for (int p = 0; p < field.parts(face.cell); ++p) {
+        if (field.is_cut(face.cell)) {
+          field.cut()->face_rule(face.cell, face.face, 1, rule, p);
+          if (rule.count() == 0) continue;
+        }
+        open.push_back(label[field.cell_nodes(block, face.cell, p)[0]]);
       }
-      open.push_back(label[space.cell_nodes(face.cell)[0]]);
     }
   std::sort(open.begin(), open.end());
   open.erase(std::unique(open.begin(), open.end()), open.end());
@@ -78,8 +82,9 @@ std::vector<int> open_parts(const Field& field, const Space& space, const Connec
 }
 
 /// The node that holds each closed part, by label.
-std::map<int, int> choose_nodes(const Field& field, const Space& space, const ConnectedNodes& label,
+std::map<int, int> choose_nodes(const Field& field, int block, const ConnectedNodes& label,
                                 const std::vector<int>& open) {
+  const Space& space = *field.blocks()[block].space;
   struct Candidate {
     int label, node;
     bool whole;
@@ -90,13 +95,13 @@ std::map<int, int> choose_nodes(const Field& field, const Space& space, const Co
     Candidate& known = found->second;
     if (!is_new && (c.whole != known.whole ? c.whole : c.node < known.node)) known = c;
   };
-  for (int c = 0; c < field.mesh().owned_cells(); ++c) {
-    if (!field.active_cells()[c]) continue;
-    const int* nodes = space.cell_nodes(c);
-    if (std::find(open.begin(), open.end(), label[nodes[0]]) != open.end()) continue;
-    for (int a = 0; a < space.nodes_per_cell(); ++a)
-      offer({label[nodes[a]], space.global_node(nodes[a]), !field.is_cut(c)});
-  }
+  for (int c = 0; c < field.mesh().owned_cells(); ++c)
+    for (int p = 0; p < field.parts(c) && field.active_cells()[c]; ++p) {
+      const int* nodes = field.cell_nodes(block, c, p);
+      if (std::find(open.begin(), open.end(), label[nodes[0]]) != open.end()) continue;
+      for (int a = 0; a < space.nodes_per_cell(); ++a)
+        offer({label[nodes[a]], space.global_node(nodes[a]), !field.is_cut(c)});
+    }
   std::vector<Candidate> mine;
   for (const auto& [part, candidate] : best) mine.push_back(candidate);
   for (const Candidate& c : field.mesh().communicator().gather_all(mine)) offer(c);
@@ -116,9 +121,9 @@ void place_levels(FieldEntry& entry) {
     };
     for (const int node : level.nodes) block.prescribed[unknown_of(node)] = 0;
     level.nodes.clear();
-    const ConnectedNodes label(field, block);
-    const std::vector<int> open = open_parts(field, *block.space, label, level.open_boundaries);
-    for (const auto& [part, global] : choose_nodes(field, *block.space, label, open)) {
+    const ConnectedNodes label(field, level.block);
+    const std::vector<int> open = open_parts(field, level.block, label, level.open_boundaries);
+    for (const auto& [part, global] : choose_nodes(field, level.block, label, open)) {
       const int node = block.space->local_node(global);
       if (node < 0) continue;
       level.nodes.push_back(node);

@@ -12,6 +12,9 @@
 namespace seam {
 namespace {
 
+/// Sets of unknowns that a node can have where bodies part the field; further parts share the last one.
+constexpr int most_sets = 4;
+
 /// The mesh of a body without deformation: one point at the centre of its shape.
 std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& builder) {
   auto data = std::make_shared<MeshData>();
@@ -34,7 +37,8 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
   entry.physics = std::move(physics);
   FieldBuilder builder(entry, domains_);
   if (entry.physics->support() == Support::point) entry.mesh = point_mesh(*mesh, builder);
-  entry.field = std::make_unique<Field>(name, *entry.mesh, entry.physics->unknowns(mesh->dimension()));
+  entry.field = std::make_unique<Field>(name, *entry.mesh, entry.physics->unknowns(mesh->dimension()),
+                                        entry.physics->separates_parts() ? most_sets : 1);
   entry.physics->build(builder);
   builder.finish();
   return *entry.field;
@@ -135,7 +139,9 @@ void Problem::initialise(double time, bool impose_prescribed) {
       for (std::size_t i = 0; i < block.prescribed.size(); ++i)
         if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
       block.old = block.now;
-      block.known.assign(block.known.size(), 1);
+      // The initial values are those at the node itself, which lies in the fluid of its set 0.
+      for (int n = 0; n < block.space->nodes(); ++n) block.known[n] = block.space->set_of(n) == 0 ? 1 : 0;
+      entry.field->set_layout(nullptr);
     }
 }
 
@@ -209,9 +215,11 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
   for (FieldEntry& entry : fields_) {
     if (!entry.cut) continue;
     const std::vector<char> before = entry.field->active_cells();
+    const std::shared_ptr<const PartLayout> sets = entry.field->layout();
     const bool was_known = !entry.cut->has_new_nodes();
     if (!entry.cut->update(at.time)) continue;
-    const bool same = was_known && before == entry.cut->active_cells();
+    const bool same = was_known && before == entry.cut->active_cells() &&
+                      (entry.field->sets() == 1 || (sets && sets->same_sets(*entry.field->layout())));
     occupy(entry, entry.cut->active_cells(), &entry.cut->mesh());
     change = std::max(change, communicator_.any(!same) ? SpaceChange::unknowns : SpaceChange::geometry);
   }
@@ -235,7 +243,9 @@ void Problem::hold_spaces() {
 Problem::Snapshot Problem::snapshot() const {
   Snapshot states;
   for (const FieldEntry& entry : fields_)
-    for (const Block& block : entry.field->blocks()) states.push_back({block.now, block.known});
+    for (const Block& block : entry.field->blocks())
+      states.push_back({block.now, block.known, entry.field->sets() > 1 ? block.old : NodalState{},
+                        entry.field->layout()});
   return states;
 }
 
@@ -244,7 +254,9 @@ void Problem::restore(const Snapshot& states) {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       block.now = states[s].now;
-      block.known = states[s++].known;
+      block.known = states[s].known;
+      if (entry.field->sets() > 1) block.old = states[s].old;
+      entry.field->set_layout(states[s++].layout);
     }
 }
 

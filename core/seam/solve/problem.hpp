@@ -145,6 +145,8 @@ class Problem {
   struct BlockSnapshot {
     NodalState now;
     std::vector<char> known;
+    NodalState old;  ///< only where the sets of nodes may change, which reorders states
+    std::shared_ptr<const PartLayout> layout;
   };
   using Snapshot = std::vector<BlockSnapshot>;
   [[nodiscard]] Snapshot snapshot() const;

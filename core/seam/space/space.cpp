@@ -27,9 +27,10 @@ int number_entities(const std::vector<std::array<int, n>>& keys, int first, std:
 
 }  // namespace
 
-Space::Space(const Mesh& mesh, int order)
-    : mesh_(&mesh), order_(order), nodes_per_cell_(topology(mesh.type()).nodes(order)) {
+Space::Space(const Mesh& mesh, int order, int sets)
+    : mesh_(&mesh), order_(order), nodes_per_cell_(topology(mesh.type()).nodes(order)), sets_(sets) {
   number_locally(global_cell_nodes(mesh.whole()));
+  add_sets();
   place_nodes();
   build_halo();
 }
@@ -119,6 +120,28 @@ void Space::number_locally(const std::vector<int>& all_cell_nodes) {
   for (int& node : cell_nodes_) node = local_of_global_.at(node);
 }
 
+/// Repeats the owned nodes and the ghosts for every further set.
+void Space::add_sets() {
+  const int owned = owned_nodes_, count = nodes();
+  const std::vector<int> global = global_, owner = owner_;
+  const auto append = [&](int first, int last, int set) {
+    for (int n = first; n < last; ++n) {
+      global_.push_back(global[n] + set * global_bound_);
+      owner_.push_back(owner[n]);
+    }
+  };
+  global_.clear();
+  owner_.clear();
+  for (int set = 0; set < sets_; ++set) append(0, owned, set);
+  for (int set = 0; set < sets_; ++set) append(owned, count, set);
+  for (int& node : cell_nodes_)
+    if (node >= owned) node += (sets_ - 1) * owned;
+  owned_nodes_ = sets_ * owned;
+  ghost_nodes_ = sets_ * (count - owned);
+  global_bound_ *= sets_;
+  for (int n = 0; n < nodes(); ++n) local_of_global_[global_[n]] = n;
+}
+
 void Space::place_nodes() {
   const CellTopology& cell = topology(mesh_->type());
   const int dim = mesh_->dimension();
@@ -130,7 +153,8 @@ void Space::place_nodes() {
       for (int d = 0; d < dim; ++d) {
         double x = 0;
         for (int b = 0; b < shapes.nodes; ++b) x += shapes.value_at(a)[b] * mesh_->geometry(c)[b * dim + d];
-        position_[static_cast<std::size_t>(cell_nodes(c)[a]) * dim + d] = x;
+        for (int set = 0; set < sets_; ++set)
+          position_[static_cast<std::size_t>(in_set(cell_nodes(c)[a], set)) * dim + d] = x;
       }
 }
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "seam/cut/cut_mesh.hpp"
+#include "seam/cut/ghost_values.hpp"
+#include "seam/field/field.hpp"
+
+namespace seam {
+
+/// Chooses the sets of unknowns that the parts of a field's cells use.
+class PartSets {
+ public:
+  /// Collective.
+  explicit PartSets(const Field& field) : field_(&field), ghosts_(field.mesh()) {}
+
+  /// Collective. @param cut whose parts are told apart
+  /// @param active per local cell
+  [[nodiscard]] std::shared_ptr<PartLayout> find(const CutMesh& cut, const std::vector<char>& active) const;
+
+ private:
+  using Sets = std::vector<std::vector<int>>;  ///< [cell][part, node of the cell]
+  [[nodiscard]] Sets choose(const CutMesh& cut, const std::vector<char>& active, const Space& space) const;
+  void exchange(int per_cell, Sets& sets) const;
+  const Field* field_;
+  cutting::GhostValues ghosts_;
+};
+
+/// Brings states to the sets that the same parts of the fluid use now: a new set takes over from that one of
+/// the node which the parts around it used before, by their volume; a part is recognised in its cell by its
+/// centre. Sets that take over from none are not known afterwards. Collective.
+/// @param cut how bodies cut the field now
+void carry_over(Field& field, const PartLayout& before, const PartLayout& now, const CutMesh& cut);
+
+}  // namespace seam
