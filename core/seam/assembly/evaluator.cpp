@@ -31,8 +31,9 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   operators_.resize(parts_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
-    Compiled compiled{bound.term,         &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values,
-                      s.column_size(dim_)};
+    Compiled compiled{
+        bound.term,    &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_),
+        bound.constant};
     if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
     if (bound.operands.size() < s.components.size())
       throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound",
@@ -254,6 +255,8 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   batch.normal = element_.normal.empty() ? nullptr : element_.normal.data();
   batch.cell_size = element_.cell_size.data();
   batch.trace_size = element_.trace_size.data();
+  if (element_.sides.size() > 1) batch.partner_position = element_.sides[1].position.data();
+  if (term.constant >= 0) batch.constant = element_.constants[term.constant].data();
   batch.inputs = inputs_.data();
   batch.time = at.time;
   batch.step = at.step;

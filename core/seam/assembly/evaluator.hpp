@@ -27,6 +27,7 @@ struct TimePoint {
 struct BoundTerm {
   std::shared_ptr<const Term> term;
   std::vector<Operand> operands;
+  int constant = -1;  ///< index into Element::constants, -1 when the term reads none
 };
 
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
@@ -86,6 +87,7 @@ class ElementEvaluator {
     const Signature* signature;
     std::vector<BoundOperand> operands;
     int inputs, outputs, columns;
+    int constant;
   };
   /// Shape operators of a part at the element's points.
   struct Operators {

@@ -87,7 +87,8 @@ Extension::Extension(Field& field) : field_(&field) {}
 Extension::~Extension() = default;
 
 void Extension::extend() {
-  for (Block& block : field_->blocks()) extend_block(block);
+  for (Block& block : field_->blocks())
+    if (!block.given) extend_block(block);
 }
 
 void Extension::check_reach(const Block& block) const {

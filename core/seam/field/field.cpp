@@ -12,10 +12,14 @@ Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns)
     : name_(std::move(name)), mesh_(&mesh), unknowns_(std::move(unknowns)), active_cells_(mesh.cells(), 1) {
   for (const Unknown& unknown : unknowns_) {
     int b = 0;
-    while (b < static_cast<int>(blocks_.size()) && blocks_[b].space->order() != unknown.order) ++b;
+    const auto shared = [&](const Block& block) {
+      return block.space->order() == unknown.order && block.given == unknown.given;
+    };
+    while (b < static_cast<int>(blocks_.size()) && !shared(blocks_[b])) ++b;
     if (b == static_cast<int>(blocks_.size())) {
       blocks_.emplace_back();
       blocks_[b].space = std::make_unique<Space>(mesh, unknown.order);
+      blocks_[b].given = unknown.given;
     }
     places_.push_back({b, blocks_[b].size, unknown.components});
     blocks_[b].size += unknown.components;
@@ -29,7 +33,7 @@ void Field::resize(Block& block) {
   const std::size_t n = static_cast<std::size_t>(block.space->nodes()) * block.size;
   block.now.resize(n);
   block.old.resize(n);
-  block.active.resize(block.space->nodes(), 1);
+  block.active.resize(block.space->nodes(), block.given ? 0 : 1);
   block.known.resize(block.space->nodes(), 1);
   block.prescribed.resize(n, 0);
   block.prescribed_value.resize(n, 0.0);
@@ -63,6 +67,7 @@ void Field::occupy(std::vector<char> cell_is_active, const CutMesh* cut) {
   active_cells_ = std::move(cell_is_active);
   cut_ = cut;
   for (Block& block : blocks_) {
+    if (block.given) continue;
     std::fill(block.active.begin(), block.active.end(), 0);
     for (int c = 0; c < mesh_->cells(); ++c)
       if (active_cells_[c])

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "seam/scene/expression.hpp"
+#include "seam/term/kernel_term.hpp"
+
+/// Coupling of a fluid (side 0) with a deforming body (side 1) by Nitsche's method: what both
+/// representations of the traction share.
+namespace seam::fsci {
+
+using Velocity = Vector<0>;
+using Pressure = Scalar<1>;
+using Displacement = Vector<2>;
+
+/// What the coupling needs to know of the fluid.
+struct Flow {
+  double density;    ///< kg/m^3
+  double viscosity;  ///< dynamic, Pa s
+  bool convection;   ///< false: Stokes flow
+};
+
+/// A given difference between the two sides: a function at the place where the point is now minus one at the
+/// material point of the body. Empty lists stand for zero.
+struct Jump {
+  std::vector<Expression> fluid, body;
+
+  /// Component c at a point. Its change with a moving point is left out of tangents.
+  template <int dim, class G>
+  [[nodiscard]] double component(std::size_t c, const Point<dim, G>& x) const {
+    double here[dim], value = 0;
+    for (int i = 0; i < dim; ++i) here[i] = plain(x.position[i]);
+    if (!fluid.empty()) value += fluid[c](here, dim, x.time);
+    if (!body.empty()) value -= body[c](x.partner_position.c.data(), dim, x.time);
+    return value;
+  }
+};
+
+/// The jumps of a manufactured solution, thesis (3.47), (3.48): v = du/dt + g_v and
+/// (sigma_F - sigma_S) n = g_sigma.
+struct Jumps {
+  Jump velocity;  ///< m/s
+  Jump stress;    ///< Pa, row by row
+
+  /// J = v - du/dt - g_v.
+  template <int dim, class T, class G>
+  [[nodiscard]] Vec<dim, T> mismatch(const Point<dim, G>& x, const Vec<dim, T>& velocity_of_fluid,
+                                     const Vec<dim, T>& velocity_of_body) const {
+    Vec<dim, T> jump = velocity_of_fluid - velocity_of_body;
+    for (int i = 0; i < dim; ++i) jump[i] -= velocity.component(i, x);
+    return jump;
+  }
+  /// g_sigma, with the normal as it is.
+  template <int dim, class G>
+  [[nodiscard]] Vec<dim, G> traction(const Point<dim, G>& x) const {
+    Mat<dim, dim, double> difference;
+    for (int c = 0; c < dim * dim; ++c) difference.c[c] = stress.component(c, x);
+    return difference * x.normal;
+  }
+};
+
+/// J: what the kinematic condition misses.
+struct VelocityMismatch {
+  using Reads = Slots<Value<Velocity>, Rate<Displacement>>;
+  static constexpr int values(int dim) { return dim; }
+  Jumps jumps;
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    const auto j = jumps.mismatch<dim, double>(x, s.value(Velocity{}), s.rate(Displacement{}));
+    std::copy(j.c.begin(), j.c.end(), value);
+  }
+};
+
+}  // namespace seam::fsci
