@@ -91,7 +91,7 @@ class Fsi final : public Coupling {
           adjoint,
           penalty.number("normal"),
           penalty.number("tangential")};
-      return {{make_term(kernel, 1), operands, nullptr}};
+      return {{make_term(kernel, 1), operands}};
     }
     const auto& law = sides.fields[1]->stress_law();
     if (!law)

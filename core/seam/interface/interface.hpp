@@ -63,7 +63,7 @@ class Coupling {
     std::shared_ptr<const Term> term;
     std::vector<Operand> operands;
     /// What the term reads as Point::constant: of the cells of side 1.
-    std::shared_ptr<const CellConstant> constant;
+    std::shared_ptr<const CellConstant> constant = nullptr;
   };
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
