@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "seam/scene/expression.hpp"
@@ -27,14 +27,37 @@ struct Flow {
 struct Jump {
   std::vector<Expression> fluid, body;
 
-  /// Component c at a point. Its change with a moving point is left out of tangents.
-  template <int dim, class G>
-  [[nodiscard]] double component(std::size_t c, const Point<dim, G>& x) const {
-    double here[dim], value = 0;
-    for (int i = 0; i < dim; ++i) here[i] = plain(x.position[i]);
-    if (!fluid.empty()) value += fluid[c](here, dim, x.time);
-    if (!body.empty()) value -= body[c](x.partner_position.c.data(), dim, x.time);
+  /// Its `count` components at a point.
+  template <int count, int dim, class G>
+  [[nodiscard]] Vec<count, G> at(const Point<dim, G>& x) const {
+    Vec<count, G> value;
+    add<count, dim, G>(fluid, 1, x.position, x, value);
+    add<count, dim, G>(body, -1, x.partner_position, x, value);
     return value;
+  }
+
+ private:
+  template <int count, int dim, class G>
+  static void add(const std::vector<Expression>& functions, double sign, const Vec<dim, G>& position,
+                  const Point<dim, G>& x, Vec<count, G>& value) {
+    if (functions.empty()) return;
+    double here[dim];
+    for (int i = 0; i < dim; ++i) here[i] = plain(position[i]);
+    for (int c = 0; c < count; ++c) value[c] += sign * functions[c](here, dim, x.time);
+    if constexpr (!std::is_same_v<G, double>) {
+      // Functions give values; for a tangent their differences are exact enough.
+      const double step = 1e-5 * x.cell_size;
+      for (int i = 0; i < dim; ++i) {
+        double slope[count];
+        here[i] += step;
+        for (int c = 0; c < count; ++c) slope[c] = functions[c](here, dim, x.time);
+        here[i] -= 2 * step;
+        for (int c = 0; c < count; ++c) slope[c] = (slope[c] - functions[c](here, dim, x.time)) / (2 * step);
+        here[i] += step;
+        const G moved = position[i] - here[i];
+        for (int c = 0; c < count; ++c) value[c] += (sign * slope[c]) * moved;
+      }
+    }
   }
 };
 
@@ -49,14 +72,14 @@ struct Jumps {
   [[nodiscard]] Vec<dim, T> mismatch(const Point<dim, G>& x, const Vec<dim, T>& velocity_of_fluid,
                                      const Vec<dim, T>& velocity_of_body) const {
     Vec<dim, T> jump = velocity_of_fluid - velocity_of_body;
-    for (int i = 0; i < dim; ++i) jump[i] -= velocity.component(i, x);
+    jump -= velocity.at<dim>(x);
     return jump;
   }
   /// g_sigma, with the normal as it is.
   template <int dim, class G>
   [[nodiscard]] Vec<dim, G> traction(const Point<dim, G>& x) const {
-    Mat<dim, dim, double> difference;
-    for (int c = 0; c < dim * dim; ++c) difference.c[c] = stress.component(c, x);
+    Mat<dim, dim, G> difference;
+    difference.c = stress.at<dim * dim>(x).c;
     return difference * x.normal;
   }
 };

@@ -101,7 +101,10 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
   if (role_ == Role::sweep && !moves_now_) return;
   compute_operators();
   gather();
-  if (moves_now_) compute_reference_motion();
+  if (moves_now_) {
+    compute_reference_motion();
+    compute_partner_motion();
+  }
   for (const Compiled& term : terms_) {
     compute_inputs(term);
     if (role_ == Role::sweep) {
@@ -266,6 +269,7 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
     batch.moves = dim_ * dim_;
     batch.position_change = element_.motion->position.data();
     batch.normal_change = element_.motion->normal.data();
+    batch.partner_change = partner_motion_.data();
     batch.input_change = input_change_.data();
   }
   const int columns = term.columns + batch.moves;

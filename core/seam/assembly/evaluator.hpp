@@ -116,6 +116,7 @@ class ElementEvaluator {
   // What moving points add (evaluator_motion.cpp).
   void compute_gradient_change(int part);
   void compute_reference_motion();
+  void compute_partner_motion();
   void compute_input_change(const Compiled& term);
   /// Derivative of row i of a slot's shape functions with respect to reference coordinate j, [stride].
   [[nodiscard]] const double* shape_change(const Slot& slot, int part, int point, int j, int i) const;
@@ -139,7 +140,7 @@ class ElementEvaluator {
   bool moves_now_ = false;  ///< the element under work is differentiated with respect to its points' motion
   int moving_part_ = -1, moving_offset_ = 0;           ///< where the unknown that moves the points is
   std::vector<std::vector<double>> reference_motion_;  ///< [side][point][reference direction][move]
-  std::vector<double> input_change_, swept_;
+  std::vector<double> input_change_, partner_motion_, swept_;
   std::vector<double> residual_, magnitude_, matrix_;
 };
 

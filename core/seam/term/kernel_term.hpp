@@ -113,7 +113,7 @@ struct Point {
   /// that scales Nitsche penalties (the whole cell's volume where it is cut).
   double trace_size = 0;
   /// m, on interfaces: the same material point in the reference configuration of side 1's mesh.
-  Vec<dim, double> partner_position;
+  Vec<dim, G> partner_position;
   double constant = 0;  ///< of side 1's cell, prepared beforehand for the term (CellConstant)
   double time = 0;      ///< s, end of the step
   double step = 0;      ///< s; 0 in a static problem
@@ -396,6 +396,7 @@ class KernelTerm final : public Term {
         const int k = (q * dim + i) * points.moves + m;
         point.position[i].d[columns + m] = points.position_change[k];
         point.normal[i].d[columns + m] = points.normal_change[k];
+        point.partner_position[i].d[columns + m] = points.partner_change[k];
       }
     return point;
   }

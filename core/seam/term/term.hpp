@@ -76,6 +76,7 @@ struct PointBatch {
   int moves = 0;
   const double* position_change = nullptr;  ///< [point][dimension][move]
   const double* normal_change = nullptr;    ///< [point][dimension][move]
+  const double* partner_change = nullptr;   ///< [point][dimension][move]
   const double* input_change = nullptr;     ///< [point][Signature::inputs][move]
 };
 
