@@ -49,7 +49,8 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
     : parameters_(p),
       stabilisation_(registry.create<Stabilisation>("fluid_stabilisation", p.object("stabilisation"))),
       flow_{p.number("density"), p.number("viscosity"), p.boolean("convection")},
-      order_(static_cast<int>(p.integer("order"))) {
+      order_(static_cast<int>(p.integer("order"))),
+      nodal_force_(p.has("body_force") && p.boolean("interpolate_body_force")) {
   if (order_ > stabilisation_->highest_order())
     throw Error(p.where("stabilisation"),
                 fmt::format("`{}` is consistent up to order {}; `order: {}` needs `cip`",
@@ -57,7 +58,9 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
 }
 
 std::vector<Unknown> Fluid::unknowns(int dimension) const {
-  return {{"velocity", dimension, order_, 1, "m/s"}, {"pressure", 1, order_, 0, "Pa"}};
+  std::vector<Unknown> result{{"velocity", dimension, order_, 1, "m/s"}, {"pressure", 1, order_, 0, "Pa"}};
+  if (nodal_force_) result.push_back({"body_force", dimension, order_, 0, "m/s^2", true});
+  return result;
 }
 
 void Fluid::build(FieldSetup& setup) const {
@@ -80,7 +83,12 @@ void Fluid::add_volume_terms(FieldSetup& setup) const {
   std::vector<Expression> body_force;
   if (parameters_.has("body_force")) {
     body_force = parameters_.vector_expression("body_force");
-    setup.add_cell_term(make_term(Load{body_force, flow_.density}, 1), velocity_only);
+    if (nodal_force_) {
+      for (int d = 0; d < setup.dimension(); ++d) setup.give("body_force", d, body_force[d]);
+      setup.add_cell_term(make_term(NodalLoad{flow_.density}, 1), {"velocity", "body_force"});
+    } else {
+      setup.add_cell_term(make_term(Load{body_force, flow_.density}, 1), velocity_only);
+    }
   }
   stabilisation_->add(setup, flow_, body_force);
 }

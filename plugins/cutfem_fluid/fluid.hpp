@@ -32,6 +32,7 @@ class Fluid final : public Physics {
   std::unique_ptr<Stabilisation> stabilisation_;
   Flow flow_;
   int order_;
+  bool nodal_force_;  ///< the body force is interpolated from the nodes
 };
 
 }  // namespace seam::fluid

@@ -46,6 +46,8 @@ Schema Fluid::schema() {
   s.boolean("convection", "false leaves out the convective acceleration: Stokes flow").otherwise("true");
   s.integer("order", "Polynomial order of velocity and pressure").otherwise("1").at_least(1).at_most(2);
   s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
+  s.boolean("interpolate_body_force", "Take it at the nodes and interpolate, instead of at every point")
+      .otherwise("false");
   s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction",
          boundary_schema())
       .otherwise("[]");

@@ -83,6 +83,18 @@ struct Load {
   }
 };
 
+/// -(dv, rho b) with the body force interpolated from the nodes.
+struct NodalLoad {
+  using Force = Vector<1>;
+  using Reads = Slots<Value<Force>>;
+  using Tests = Slots<Value<Velocity>>;
+  double density;  ///< kg/m^3
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(Velocity{}) -= density * s.value(Force{});
+  }
+};
+
 /// -<dv, mu grad(v)^T n>: what is left of the traction where mu dv/dn - p n = 0, the condition that a
 /// developed pipe flow meets at its outlet.
 struct DoNothing {

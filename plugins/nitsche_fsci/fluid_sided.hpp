@@ -3,27 +3,15 @@
 
 #include <cmath>
 
-#include "seam/term/kernel_term.hpp"
+#include "conditions.hpp"
 
-/// Coupling of a fluid (side 0) with a deforming body (side 1) by Nitsche's method.
 namespace seam::fsci {
 
-using Velocity = Vector<0>;
-using Pressure = Scalar<1>;
-using Displacement = Vector<2>;
-
-/// What the coupling needs to know of the fluid.
-struct Flow {
-  double density;    ///< kg/m^3
-  double viscosity;  ///< dynamic, Pa s
-  bool convection;   ///< false: Stokes flow
-};
-
 /// The traction between fluid and body is the fluid's (thesis (3.26), (3.27); with Navier slip in the manner
-/// of (4.5)). With n out of the fluid, J = v - du/dt, P = I - n n^T, Phi = h_Gamma phi of (3.27), lambda =
-/// slip_length/mu and beta = h_Gamma/(gamma_t Phi):
+/// of (4.5)). With n out of the fluid, J = v - du/dt - g_v, P = I - n n^T, Phi = h_Gamma phi of (3.27),
+/// lambda = slip_length/mu and beta = h_Gamma/(gamma_t Phi):
 ///
-///   <dv - du, t - sigma n + gamma_n Phi/h_Gamma (J.n) n> - <dp, J.n>
+///   <dv - du, t - sigma n + gamma_n Phi/h_Gamma (J.n) n> - <du, g_sigma> - <dp, J.n>
 ///   + xi <2 mu eps(dv) n, (J.n) n + beta t>,   t = [P J + lambda P sigma n] / (lambda + beta).
 ///
 /// slip_length 0 is no slip: t = gamma_t Phi/h_Gamma P J, the form of (3.26). At xi = +1 the viscous adjoint
@@ -32,6 +20,7 @@ struct FluidSided {
   using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Displacement>>;
   using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>>;
   Flow flow;
+  Jumps jumps;
   double slip_length;  ///< m, may be infinite
   double adjoint;      ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
   double normal_penalty, tangential_penalty;
@@ -40,7 +29,7 @@ struct FluidSided {
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     const Vec<dim, G>& n = x.normal;
     const Vec<dim, T> velocity = s.value(Velocity{});
-    const Vec<dim, T> jump = velocity - s.rate(Displacement{});
+    const Vec<dim, T> jump = jumps.mismatch<dim, T>(x, velocity, s.rate(Displacement{}));
     const T gap = dot(jump, n);
     Vec<dim, T> force = ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n;
     force -= s.value(Pressure{}) * n;
@@ -56,6 +45,7 @@ struct FluidSided {
 
     r.value(Velocity{}) += traction;
     r.value(Displacement{}) -= traction;
+    r.value(Displacement{}) -= jumps.traction(x);
     r.value(Pressure{}) -= gap;
     if (adjoint == 0) return;
     r.gradient(Velocity{}) += (2 * adjoint * flow.viscosity) * sym(outer(beta * t + gap * n, n));

@@ -1,51 +1,139 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fsi.hpp"
 
+#include <fmt/format.h>
+
 #include "fluid_sided.hpp"
 #include "seam/interface/interface.hpp"
+#include "solid_sided.hpp"
+#include "trace_eigenvalue.hpp"
 
 namespace seam::fsci {
 namespace {
 
+const std::vector<Operand> operands{{0, "velocity"}, {0, "pressure"}, {1, "displacement"}};
+
+Schema jump_schema(const std::string& summary, const std::string& unit, bool tensor) {
+  Schema s(summary);
+  const std::string rows = tensor ? ", row by row" : "";
+  s.vector_expression("fluid", "Where the point is" + rows).unit(unit).entries(tensor ? -1 : 0).optional();
+  s.vector_expression("body", "To be subtracted, at the body's material point" + rows)
+      .unit(unit)
+      .entries(tensor ? -1 : 0)
+      .optional();
+  return s;
+}
+
 /// No slip, or Navier slip, between a fluid and a deforming body.
 class Fsi final : public Coupling {
  public:
-  explicit Fsi(const Parameters& parameters) : parameters_(parameters) {}
+  explicit Fsi(const Parameters& parameters) : parameters_(parameters) {
+    if (!solid_sided()) {
+      if (parameters.given("scaling")) throw only(parameters.where("scaling"), "scaling", "solid");
+      return;
+    }
+    if (parameters.number("slip_length") != 0)
+      throw only(parameters.where("slip_length"), "slip_length", "fluid");
+    const Parameters& penalty = parameters.object("penalty");
+    for (const char* key : {"normal", "tangential"})
+      if (penalty.given(key)) throw only(penalty.where(key), key, "fluid");
+  }
 
   static Schema schema() {
     Schema s("A fluid and a deforming body that move together and share their traction.");
     s.reference("on", "Interface with the fluid on side 0 and the body on side 1", "interface");
+    s.choice("stress", "Whose stress is the traction: `fluid`, thesis (3.26), or `solid`, (3.29)",
+             {"fluid", "solid"})
+        .otherwise("fluid");
     s.number("slip_length", "Navier's: 0 is no slip, .inf leaves the body to glide freely")
         .unit("m")
         .otherwise("0")
         .at_least(0)
         .or_infinite();
-    s.choice("adjoint", "Viscous adjoint term: `skew` (xi = 1) is stable for every penalty",
+    s.choice("adjoint", "Adjoint term: `skew` (xi = 1) is stable for every penalty",
              {"skew", "symmetric", "none"})
         .otherwise("skew");
-    Schema penalty("Factors of Nitsche's penalty, thesis (3.26), (3.27).");
-    penalty.number("normal", "For the velocity across the interface").otherwise("35").above(0);
-    penalty.number("tangential", "For the velocity along it").otherwise("35").above(0);
+    Schema penalty("Factors of Nitsche's penalty, thesis (3.26), (3.29).");
+    penalty.number("normal", "For the velocity across the interface, of the fluid's stress")
+        .otherwise("35")
+        .above(0);
+    penalty.number("tangential", "For the velocity along it, of the fluid's stress").otherwise("35").above(0);
+    penalty.number("solid", "Of the body's stress").otherwise("2").at_least(0);
     s.object("penalty", "Factors of Nitsche's penalty", penalty).otherwise("{}");
+    s.choice(
+         "scaling",
+         "With the body's stress: which deformation of its cells scales the penalty, thesis (3.31): that in "
+         "each iteration, at the start of each step, or none",
+         {"iteration", "step", "once"})
+        .otherwise("step");
+    Schema jump("Given jumps between the two sides, as those of a manufactured solution.");
+    jump.object("velocity", "Of the velocity, thesis (3.48)", jump_schema("A difference.", "m/s", false))
+        .optional();
+    jump.object("stress", "Of the stress, times the normal out of the fluid the traction's, thesis (3.47)",
+                jump_schema("A difference.", "Pa", true))
+        .optional();
+    s.object("jump", "Given jumps between the two sides; default none", jump).optional();
     return s;
   }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    const std::vector<Operand> operands{{0, "velocity"}, {0, "pressure"}, {1, "displacement"}};
     for (const Operand& operand : operands)
       static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
-    const Field& fluid = *sides.fields[0];
-    const std::string& adjoint = parameters_.text("adjoint");
-    const FluidSided kernel{
-        {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0},
-        parameters_.number("slip_length"),
-        adjoint == "skew" ? 1.0 : (adjoint == "symmetric" ? -1.0 : 0.0),
-        parameters_.object("penalty").number("normal"),
-        parameters_.object("penalty").number("tangential")};
-    return {{make_term(kernel, 1), operands}};
+    const std::string& name = parameters_.text("adjoint");
+    const double adjoint = name == "skew" ? 1.0 : (name == "symmetric" ? -1.0 : 0.0);
+    const Parameters& penalty = parameters_.object("penalty");
+    if (!solid_sided()) {
+      const Field& fluid = *sides.fields[0];
+      const FluidSided kernel{
+          {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0},
+          jumps(),
+          parameters_.number("slip_length"),
+          adjoint,
+          penalty.number("normal"),
+          penalty.number("tangential")};
+      return {{make_term(kernel, 1), operands}};
+    }
+    const auto& law = sides.fields[1]->stress_law();
+    if (!law)
+      throw Error(
+          fmt::format("`stress: solid` needs a body that makes its stress known; field '{}' does not (a "
+                      "solid does, unless its formulation is mixed)",
+                      sides.fields[1]->name()));
+    return {{make_term(SolidSided{law, jumps(), adjoint, penalty.number("solid")}, 1), operands,
+             std::make_shared<TraceEigenvalue>(law, refresh())}};
+  }
+
+  [[nodiscard]] std::vector<Mismatch> mismatches(const CouplingSides&) const override {
+    return {{"mismatch", make_quantity(VelocityMismatch{jumps()}), operands}};
   }
 
  private:
+  [[nodiscard]] bool solid_sided() const { return parameters_.text("stress") == "solid"; }
+  static Error only(const Location& where, const std::string& key, const std::string& side) {
+    return {where, fmt::format("`{}` belongs to `stress: {}`", key, side)};
+  }
+  [[nodiscard]] CellConstant::Refresh refresh() const {
+    const std::string& scaling = parameters_.text("scaling");
+    if (scaling == "once") return CellConstant::Refresh::once;
+    return scaling == "step" ? CellConstant::Refresh::step : CellConstant::Refresh::iteration;
+  }
+  [[nodiscard]] Jumps jumps() const {
+    if (!parameters_.has("jump")) return {};
+    const Parameters& all = parameters_.object("jump");
+    const auto read = [&](const std::string& key, std::size_t components) {
+      Jump jump;
+      if (!all.has(key)) return jump;
+      const Parameters& given = all.object(key);
+      if (given.has("fluid")) jump.fluid = given.vector_expression("fluid");
+      if (given.has("body")) jump.body = given.vector_expression("body");
+      for (const auto* side : {&jump.fluid, &jump.body})
+        if (!side->empty() && side->size() != components)
+          throw Error(given.where(), fmt::format("found {} entries, expected {}", side->size(), components));
+      return jump;
+    };
+    const auto dim = static_cast<std::size_t>(parameters_.dimension());
+    return {read("velocity", dim), read("stress", dim * dim)};
+  }
   Parameters parameters_;
 };
 

@@ -40,13 +40,7 @@ struct Deformation {
   }
   /// p += slope dI2/dF; many materials do not depend on I2.
   void add_second_invariant(const T& slope, Mat<dim, dim, T>& p) const {
-    if constexpr (std::is_same_v<T, double>) {
-      if (slope == 0) return;
-    } else {
-      bool none = plain(slope) == 0;
-      for (const double d : slope.d) none = none && d == 0;
-      if (none) return;
-    }
+    if (vanishes(slope)) return;
     if constexpr (dim == 2)
       p += (2.0 * slope) * f + (2.0 * slope * invariant[2]) * cofactor;
     else
@@ -57,15 +51,24 @@ struct Deformation {
 using u = Vector<0>;
 using PotentialPointer = std::shared_ptr<const Potential>;
 
-/// (grad0 du, P) of thesis (2.22) with P = d psi / dF.
+/// P = d psi / dF.
+struct Piola {
+  PotentialPointer material;
+  template <int dim, class T>
+  [[nodiscard]] Mat<dim, dim, T> stress(const Mat<dim, dim, T>& displacement_gradient) const {
+    const Deformation<dim, T> d(displacement_gradient);
+    return d.stress(gradient<3>(*material, d.invariant));
+  }
+};
+
+/// (grad0 du, P) of thesis (2.22) .
 struct InternalForce {
   using Reads = Slots<Gradient<u>>;
   using Tests = Slots<Gradient<u>>;
-  PotentialPointer material;
+  Piola law;
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Deformation<dim, T> d(s.gradient(u{}));
-    r.gradient(u{}) += d.stress(gradient<3>(*material, d.invariant));
+    r.gradient(u{}) += law.stress<dim, T>(s.gradient(u{}));
   }
 };
 
@@ -118,6 +121,18 @@ struct Load {
     Vec<dim, double> value;
     for (int i = 0; i < dim; ++i) value[i] = factor * load[i](x.position.c.data(), dim, x.time);
     r.value(u{}) -= value;
+  }
+};
+
+/// -(du, rho0 b) with the body force interpolated from the nodes.
+struct NodalLoad {
+  using force = Vector<1>;
+  using Reads = Slots<Value<force>>;
+  using Tests = Slots<Value<u>>;
+  double density;  ///< kg/m^3 of reference volume
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(u{}) -= density * s.value(force{});
   }
 };
 

@@ -2,6 +2,7 @@
 #include "solid.hpp"
 
 #include "quantities.hpp"
+#include "seam/physics/stress_law.hpp"
 
 namespace seam::solid {
 namespace {
@@ -37,6 +38,8 @@ Schema Solid::schema() {
       .otherwise("displacement");
   s.integer("order", "Polynomial order of the displacement").otherwise("1").at_least(1).at_most(2);
   s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
+  s.boolean("interpolate_body_force", "Take it at the nodes and interpolate, instead of at every point")
+      .otherwise("false");
   s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction",
          boundary_schema())
       .otherwise("[]");
@@ -52,6 +55,7 @@ Solid::Solid(const Parameters& p, const Registry& registry)
       material_(registry.create<Potential>("hyperelastic", p.object("material"))),
       density_(p.number("density")),
       mixed_(p.text("formulation") == "mixed"),
+      nodal_force_(p.has("body_force") && p.boolean("interpolate_body_force")),
       order_(static_cast<int>(p.integer("order"))) {
   if (material_->arguments() != 3)
     throw Error(p.where("material"), "this material does not take the three invariants I1, I2, J");
@@ -66,6 +70,7 @@ std::vector<Unknown> Solid::unknowns(int dimension) const {
     result.push_back({"pressure", 1, 1, 0, "Pa"});
     result.push_back({"dilation", 1, 1, 0, ""});
   }
+  if (nodal_force_) result.push_back({"body_force", dimension, order_, 0, "m/s^2", true});
   return result;
 }
 
@@ -88,14 +93,20 @@ void Solid::add_body_terms(FieldSetup& setup) const {
   if (mixed_)
     setup.add_cell_term(make_term(MixedInternalForce{material_}), mixed_unknowns);
   else
-    setup.add_cell_term(make_term(InternalForce{material_}), displacement_only);
+    setup.add_cell_term(make_term(InternalForce{{material_}}), displacement_only);
+  if (!mixed_) setup.publish(std::make_shared<LawStress<Piola>>(Piola{material_}));
   if (density_ > 0) setup.add_cell_term(make_term(Inertia{density_}), displacement_only);
   if (!parameters_.has("body_force")) return;
   if (density_ == 0)
     throw Error(parameters_.where("body_force"),
                 "a body force per mass acts on a body without mass: give a `density`");
-  setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), density_}, 1),
-                      displacement_only);
+  const auto& force = parameters_.vector_expression("body_force");
+  if (!nodal_force_) {
+    setup.add_cell_term(make_term(Load{force, density_}, 1), displacement_only);
+    return;
+  }
+  for (int d = 0; d < setup.dimension(); ++d) setup.give("body_force", d, force[d]);
+  setup.add_cell_term(make_term(NodalLoad{density_}, 1), {unknown_name, "body_force"});
 }
 
 void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {

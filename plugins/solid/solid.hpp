@@ -26,6 +26,7 @@ class Solid final : public Physics {
   PotentialPointer material_;
   double density_;
   bool mixed_;
+  bool nodal_force_;  ///< the body force is interpolated from the nodes
   int order_;
 };
 

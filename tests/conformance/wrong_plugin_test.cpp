@@ -61,9 +61,9 @@ Result test_material(const std::string& material, const std::string& options) {
 TEST_CASE("a right material passes where the wrong ones fail; schemas, coverage and own checks are judged") {
   const Result result = test_material("right", "--ranks 1");
   INFO(result.output);
-  for (const char* name :
-       {"gradient against", "Hessian against", "symmetry", "no energy", "no stress", "restart", "rewind",
-        "tangent: whole system", "descriptor", "registration", "JSON Schema"})
+  for (const char* name : {"gradient against", "Hessian against", "third derivatives against", "symmetry",
+                           "no energy", "no stress", "restart", "rewind", "tangent: whole system",
+                           "descriptor", "registration", "JSON Schema"})
     CHECK(result.outcome(name) == "ok");
   CHECK(result.outcome("number of ranks") == "skip");
   CHECK(result.outcome("the scene's own checks") == "FAIL");
@@ -82,6 +82,13 @@ TEST_CASE("a Hessian that is 1 % off is found in the material, in the term and i
   CHECK(result.outcome("tangent: whole system") == "FAIL");
   CHECK(result.outcome("tangent: seam::solid::InternalForce") == "FAIL");
   CHECK(result.outcome("tangent: seam::solid::Load") == "ok");
+}
+
+TEST_CASE("third derivatives that are 1 % off are found") {
+  const Result result = test_material("wrong_third", "--ranks 1");
+  INFO(result.output);
+  CHECK(result.outcome("Hessian against") == "ok");
+  CHECK(result.outcome("third derivatives against") == "FAIL");
 }
 
 TEST_CASE("an energy that does not fit its gradient is found") {

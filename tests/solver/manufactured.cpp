@@ -36,7 +36,7 @@ class ManufacturedSolid final : public Physics {
       setup.add_cell_term(make_term(solid::MixedInternalForce{material_}),
                           {"displacement", "pressure", "dilation"});
     else
-      setup.add_cell_term(make_term(solid::InternalForce{material_}), u);
+      setup.add_cell_term(make_term(solid::InternalForce{{material_}}), u);
     if (body_.dynamic) setup.add_cell_term(make_term(solid::Inertia{density}), u);
     setup.add_cell_term(make_term(ManufacturedLoad{body_.exact, material_, density, body_.dynamic}, 2), u);
     const int dim = setup.dimension();

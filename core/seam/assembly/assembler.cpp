@@ -276,7 +276,7 @@ std::vector<EquationBlock> Assembler::equation_blocks() const {
       block.count += b.block->size;
     }
     first += block.count;
-    result.push_back(std::move(block));
+    if (!b.block->given) result.push_back(std::move(block));
   }
   return result;
 }

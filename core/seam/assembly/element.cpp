@@ -97,6 +97,11 @@ void Element::measure_face(const CellTopology& cell, int face, const std::vector
   }
 }
 
+int IntegrationDomain::add_constant(std::shared_ptr<const CellConstant>) {
+  throw Error("a coupling needs constants of the body's cells, which " + description() +
+              " do not keep; use an interface of type embedded");
+}
+
 double Element::measure() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }
 
 void Element::set_sizes(double cell, double trace) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "seam/field/field.hpp"
@@ -9,6 +10,8 @@
 #include "seam/term/term.hpp"
 
 namespace seam {
+
+class CellConstant;
 
 /// One side of an element: a cell, and the reference coordinates of the element's points in it.
 struct ElementSide {
@@ -51,6 +54,8 @@ struct Element {
   std::vector<double> normal;      ///< [point][dimension], outward from side 0; empty for cells
   std::vector<double> cell_size;   ///< [point]
   std::vector<double> trace_size;  ///< [point], see Point
+  /// [constant][point]: those that terms asked the domain to keep.
+  std::vector<std::vector<double>> constants;
   std::vector<ElementSide> sides;
   const PointMotion* motion = nullptr;  ///< where IntegrationDomain::mover() says so
 
@@ -81,6 +86,10 @@ class IntegrationDomain {
   [[nodiscard]] virtual const Field* whole_field() const { return nullptr; }
   /// Finds the elements anew after this field's active cells, or the bodies that cut them, have changed.
   virtual void update(const Field& field) { (void)field; }
+  /// Keeps a number per cell of side 1 for a term. @return index into Element::constants
+  virtual int add_constant(std::shared_ptr<const CellConstant> constant);
+  /// Those that follow the deformation are computed anew: at the start of a step, or in each iteration.
+  virtual void forget_constants(bool new_step) { (void)new_step; }
   /// For messages: "cells of field 'water'".
   [[nodiscard]] virtual std::string description() const = 0;
 };

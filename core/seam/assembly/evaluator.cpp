@@ -31,8 +31,9 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   operators_.resize(parts_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
-    Compiled compiled{bound.term,         &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values,
-                      s.column_size(dim_)};
+    Compiled compiled{
+        bound.term,    &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_),
+        bound.constant};
     if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
     if (bound.operands.size() < s.components.size())
       throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound",
@@ -100,7 +101,10 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
   if (role_ == Role::sweep && !moves_now_) return;
   compute_operators();
   gather();
-  if (moves_now_) compute_reference_motion();
+  if (moves_now_) {
+    compute_reference_motion();
+    compute_partner_motion();
+  }
   for (const Compiled& term : terms_) {
     compute_inputs(term);
     if (role_ == Role::sweep) {
@@ -254,6 +258,8 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   batch.normal = element_.normal.empty() ? nullptr : element_.normal.data();
   batch.cell_size = element_.cell_size.data();
   batch.trace_size = element_.trace_size.data();
+  if (element_.sides.size() > 1) batch.partner_position = element_.sides[1].position.data();
+  if (term.constant >= 0) batch.constant = element_.constants[term.constant].data();
   batch.inputs = inputs_.data();
   batch.time = at.time;
   batch.step = at.step;
@@ -263,6 +269,7 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
     batch.moves = dim_ * dim_;
     batch.position_change = element_.motion->position.data();
     batch.normal_change = element_.motion->normal.data();
+    batch.partner_change = partner_motion_.data();
     batch.input_change = input_change_.data();
   }
   const int columns = term.columns + batch.moves;

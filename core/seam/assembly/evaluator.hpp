@@ -27,6 +27,7 @@ struct TimePoint {
 struct BoundTerm {
   std::shared_ptr<const Term> term;
   std::vector<Operand> operands;
+  int constant = -1;  ///< index into Element::constants, -1 when the term reads none
 };
 
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
@@ -86,6 +87,7 @@ class ElementEvaluator {
     const Signature* signature;
     std::vector<BoundOperand> operands;
     int inputs, outputs, columns;
+    int constant;
   };
   /// Shape operators of a part at the element's points.
   struct Operators {
@@ -114,6 +116,7 @@ class ElementEvaluator {
   // What moving points add (evaluator_motion.cpp).
   void compute_gradient_change(int part);
   void compute_reference_motion();
+  void compute_partner_motion();
   void compute_input_change(const Compiled& term);
   /// Derivative of row i of a slot's shape functions with respect to reference coordinate j, [stride].
   [[nodiscard]] const double* shape_change(const Slot& slot, int part, int point, int j, int i) const;
@@ -137,7 +140,7 @@ class ElementEvaluator {
   bool moves_now_ = false;  ///< the element under work is differentiated with respect to its points' motion
   int moving_part_ = -1, moving_offset_ = 0;           ///< where the unknown that moves the points is
   std::vector<std::vector<double>> reference_motion_;  ///< [side][point][reference direction][move]
-  std::vector<double> input_change_, swept_;
+  std::vector<double> input_change_, partner_motion_, swept_;
   std::vector<double> residual_, magnitude_, matrix_;
 };
 

@@ -63,6 +63,24 @@ void ElementEvaluator::compute_reference_motion() {
   }
 }
 
+/// How the points pass through the reference configuration of side 1's mesh.
+void ElementEvaluator::compute_partner_motion() {
+  const int moves = dim_ * dim_;
+  const ElementSide& side = element_.sides[1];
+  const ShapeTable& map = *side.table[side.field->mesh().order() - 1];
+  partner_motion_.assign(static_cast<std::size_t>(element_.points) * dim_ * moves, 0.0);
+  for (int q = 0; q < element_.points; ++q)
+    for (int i = 0; i < dim_; ++i)
+      for (int j = 0; j < dim_; ++j) {
+        double slope = 0;  // dx_i / dxi_j
+        for (int a = 0; a < map.nodes; ++a)
+          slope += map.gradient_at(q)[j * map.stride + a] * side.geometry[a * dim_ + i];
+        for (int m = 0; m < moves; ++m)
+          partner_motion_[(static_cast<std::size_t>(q) * dim_ + i) * moves + m] +=
+              slope * reference_motion_[1][(static_cast<std::size_t>(q) * dim_ + j) * moves + m];
+      }
+}
+
 const double* ElementEvaluator::shape_change(const Slot& slot, int p, int q, int j, int i) const {
   const Part& part = parts_[p];
   if (slot.shape == Shape::value) {

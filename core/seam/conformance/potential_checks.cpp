@@ -41,14 +41,16 @@ double largest(const Container& values) {
 }
 
 struct Errors {
-  double gradient = 0, hessian = 0, asymmetry = 0;
+  double gradient = 0, hessian = 0, third = 0, asymmetry = 0;
 };
 
-/// Energy and gradient at a changed invariant j.
+/// Energy, gradient and Hessian at a changed invariant j.
 std::vector<double> changed(const Potential& material, Invariants at, int j, double step) {
   at[j] += step;
   const Evaluation there(material, at);
-  return {there.value, there.gradient[0], there.gradient[1], there.gradient[2]};
+  std::vector<double> all{there.value, there.gradient[0], there.gradient[1], there.gradient[2]};
+  all.insert(all.end(), there.hessian.begin(), there.hessian.end());
+  return all;
 }
 
 Errors derivative_errors(const Potential& material, const Invariants& at) {
@@ -56,9 +58,12 @@ Errors derivative_errors(const Potential& material, const Invariants& at) {
   const double gradient_scale = largest(here.gradient);
   // A linear energy has no second derivatives: measure the error against what they would do to the gradient.
   const double hessian_scale = std::max(largest(here.hessian), 1e-6 * gradient_scale);
+  std::array<double, 27> third{};
+  material.third_derivative(at.data(), third.data());
+  const double third_scale = std::max(largest(third), 1e-6 * hessian_scale);
   Errors errors;
   for (int j = 0; j < 3; ++j) {
-    double gradient_error = INFINITY, hessian_error = INFINITY;
+    double gradient_error = INFINITY, hessian_error = INFINITY, third_error = INFINITY;
     for (const double step : difference_steps) {
       const auto derivative = central_difference([&](double s) { return changed(material, at, j, s); }, step);
       gradient_error =
@@ -67,9 +72,14 @@ Errors derivative_errors(const Potential& material, const Invariants& at) {
       for (int i = 0; i < 3; ++i)
         column = worse(column, std::abs(derivative[1 + i] - here.hessian[i * 3 + j]) / hessian_scale);
       hessian_error = std::min(hessian_error, column);
+      double slice = 0;
+      for (int i = 0; i < 9; ++i)
+        slice = worse(slice, std::abs(derivative[4 + i] - third[i * 3 + j]) / third_scale);
+      third_error = std::min(third_error, slice);
     }
     errors.gradient = worse(errors.gradient, gradient_error);
     errors.hessian = worse(errors.hessian, hessian_error);
+    errors.third = worse(errors.third, third_error);
     for (int i = 0; i < 3; ++i)
       errors.asymmetry = worse(errors.asymmetry,
                                std::abs(here.hessian[i * 3 + j] - here.hessian[j * 3 + i]) / hessian_scale);
@@ -90,15 +100,18 @@ std::vector<ConformanceCheck> check_hyperelastic(const Potential& material) {
     const Errors errors = derivative_errors(material, random_deformation(generator));
     worst.gradient = worse(worst.gradient, errors.gradient);
     worst.hessian = worse(worst.hessian, errors.hessian);
+    worst.third = worse(worst.third, errors.third);
     worst.asymmetry = worse(worst.asymmetry, errors.asymmetry);
   }
   const auto derivative = [](const char* name, double error) {
     return conformance_check(name, error <= tangent_tolerance,
                              fmt::format("{:.1e} relative, at most {:.0e}", error, tangent_tolerance));
   };
-  std::vector<ConformanceCheck> checks{derivative("gradient against finite differences", worst.gradient),
-                                       derivative("Hessian against finite differences", worst.hessian),
-                                       derivative("symmetry of the Hessian", worst.asymmetry)};
+  std::vector<ConformanceCheck> checks{
+      derivative("gradient against finite differences", worst.gradient),
+      derivative("Hessian against finite differences", worst.hessian),
+      derivative("third derivatives against finite differences", worst.third),
+      derivative("symmetry of the Hessian", worst.asymmetry)};
   const Evaluation rest(material, {3, 3, 1});
   const auto& [i1, i2, j] = rest.gradient;
   const double scale = 2 * std::abs(i1) + 4 * std::abs(i2) + std::abs(j);

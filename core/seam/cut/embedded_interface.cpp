@@ -30,8 +30,13 @@ class BodySurface {
     std::vector<int> cells;
     for (const CellFace& parent : boundary_.parent) {
       const auto [found, is_new] = group.emplace(parent.cell, static_cast<int>(cells.size()));
-      if (is_new) cells.push_back(parent.cell);
+      if (is_new) {
+        cells.push_back(parent.cell);
+        faces_.emplace_back();
+      }
       group_.push_back(found->second);
+      auto& faces = faces_[found->second];
+      if (std::find(faces.begin(), faces.end(), parent.face) == faces.end()) faces.push_back(parent.face);
     }
     cells_ = fetch_cells(body, cells);
     for (const int node : boundary_.node) node_.push_back(space.local_node(node));
@@ -59,6 +64,9 @@ class BodySurface {
   /// Number of the cell behind a facet, among those of the surface.
   [[nodiscard]] int group(int facet) const { return group_[facet]; }
   [[nodiscard]] const RemoteCell& cell(int group) const { return cells_[group]; }
+  /// All faces of a cell that are part of the surface.
+  [[nodiscard]] const std::vector<int>& faces(int group) const { return faces_[group]; }
+  [[nodiscard]] const Field::Place& displacement() const { return place_; }
   /// Reference coordinates, in the cell behind a facet, of a point on it.
   /// @param on_facet the facet's own coordinates, [dimension - 1]
   void to_cell(int facet, const double* on_facet, std::vector<double>& reference) const {
@@ -95,7 +103,8 @@ class BodySurface {
   Field* body_;
   BodyBoundary boundary_;
   Field::Place place_;
-  std::vector<int> group_;  ///< [facet]
+  std::vector<int> group_;               ///< [facet]
+  std::vector<std::vector<int>> faces_;  ///< [group]
   std::vector<RemoteCell> cells_;
   std::vector<int> node_;           ///< [point]: local node
   std::vector<int> place_in_cell_;  ///< [facet][dimension]
@@ -121,8 +130,16 @@ class EmbeddedBoundary final : public CutBoundary {
  public:
   EmbeddedBoundary(Field& field, const FieldCut& cut, int body, int degree,
                    std::shared_ptr<const BodySurface> surface)
-      : CutBoundary(field, cut, body, degree), surface_(std::move(surface)) {}
+      : CutBoundary(field, cut, body, degree),
+        surface_(std::move(surface)),
+        constants_(surface_->body(), surface_->displacement()) {}
   [[nodiscard]] const Operand* mover() const override { return &surface_->mover(); }
+  int add_constant(std::shared_ptr<const CellConstant> constant) override {
+    return constants_.add(std::move(constant));
+  }
+  void forget_constants(bool new_step) override {
+    constants_.forget(new_step ? CellConstant::Refresh::step : CellConstant::Refresh::iteration);
+  }
   [[nodiscard]] std::vector<Field*> fields() const override {
     return {CutBoundary::fields().front(), &surface_->body()};
   }
@@ -132,6 +149,12 @@ class EmbeddedBoundary final : public CutBoundary {
     surface_->cell(piece(index).group).attach(element.sides[1], surface_->body());
     piece(index).partner.attach(element.sides[1]);
     element.sides[1].map_geometry();
+    element.constants.resize(constants_.count());
+    for (int k = 0; k < constants_.count(); ++k) {
+      const int group = piece(index).group;
+      element.constants[k].assign(element.points,
+                                  constants_.value(k, group, surface_->cell(group), surface_->faces(group)));
+    }
   }
   [[nodiscard]] const int* nodes(int index, int side, int block) const override {
     return side == 0 ? CutBoundary::nodes(index, side, block)
@@ -167,6 +190,7 @@ class EmbeddedBoundary final : public CutBoundary {
     piece.partner.fill(surface_->body(), reference, true);
   }
   std::shared_ptr<const BodySurface> surface_;
+  mutable CellConstants constants_;  ///< computed when they are asked for
 };
 
 }  // namespace

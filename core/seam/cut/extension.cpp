@@ -87,7 +87,8 @@ Extension::Extension(Field& field) : field_(&field) {}
 Extension::~Extension() = default;
 
 void Extension::extend() {
-  for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) extend_block(b);
+  for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b)
+    if (!field_->blocks()[b].given) extend_block(b);
 }
 
 void Extension::check_reach(int number) const {

@@ -30,7 +30,7 @@ int FieldCut::add_body(Body body) {
 /// False after a failed step was rewound: then nodes known at its start may be inactive in the present cut.
 bool FieldCut::states_match() const {
   bool match = field_->layout() == layout_;
-  for (const Block& block : field_->blocks()) match = match && block.known == block.active;
+  for (const Block& block : field_->blocks()) match = match && (block.given || block.known == block.active);
   return !field_->mesh().communicator().any(!match);
 }
 

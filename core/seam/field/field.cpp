@@ -16,10 +16,14 @@ Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, 
       sets_(sets) {
   for (const Unknown& unknown : unknowns_) {
     int b = 0;
-    while (b < static_cast<int>(blocks_.size()) && blocks_[b].space->order() != unknown.order) ++b;
+    const auto shared = [&](const Block& block) {
+      return block.space->order() == unknown.order && block.given == unknown.given;
+    };
+    while (b < static_cast<int>(blocks_.size()) && !shared(blocks_[b])) ++b;
     if (b == static_cast<int>(blocks_.size())) {
       blocks_.emplace_back();
       blocks_[b].space = std::make_unique<Space>(mesh, unknown.order, sets);
+      blocks_[b].given = unknown.given;
     }
     places_.push_back({b, blocks_[b].size, unknown.components});
     blocks_[b].size += unknown.components;
@@ -33,7 +37,7 @@ void Field::resize(Block& block) {
   const std::size_t n = static_cast<std::size_t>(block.space->nodes()) * block.size;
   block.now.resize(n);
   block.old.resize(n);
-  block.active.resize(block.space->nodes(), 1);
+  block.active.resize(block.space->nodes(), block.given ? 0 : 1);
   block.known.resize(block.space->nodes(), 1);
   block.prescribed.resize(n, 0);
   block.prescribed_value.resize(n, 0.0);
@@ -68,6 +72,7 @@ void Field::occupy(std::vector<char> cell_is_active, const CutMesh* cut) {
   cut_ = cut;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     Block& block = blocks_[b];
+    if (block.given) continue;
     std::fill(block.active.begin(), block.active.end(), 0);
     for (int c = 0; c < mesh_->cells(); ++c)
       for (int p = 0; p < parts(c) && active_cells_[c]; ++p) {

@@ -12,6 +12,7 @@
 namespace seam {
 
 class CutMesh;
+class StressLaw;
 
 /// What a physics declares of one of its unknowns.
 struct Unknown {
@@ -20,6 +21,9 @@ struct Unknown {
   int order = 1;       ///< of the Lagrange space: 1 or 2
   int time_order = 0;  ///< highest rate that the physics reads: 0 (pressure), 1 (velocity), 2 (displacement)
   std::string unit;
+  /// Nodal data instead of an unknown of the system: terms read it as any other, its values follow from
+  /// FieldSetup::give at each step.
+  bool given = false;
 };
 
 /// Nodal values of a block at one instant: [node][component], and their rates as the time scheme defines
@@ -33,11 +37,13 @@ struct NodalState {
   }
 };
 
-/// All unknowns of a field that share a Lagrange space. Those of a node are contiguous. The states cover
-/// every node of the mesh, active or not, so that a changing set of active unknowns leaves them in place.
+/// All unknowns of a field that share a Lagrange space; given ones have a block of their own. Those of a node
+/// are contiguous. The states cover every node of the mesh, active or not, so that a changing set of active
+/// unknowns leaves them in place.
 struct Block {
   std::unique_ptr<Space> space;
-  int size = 0;  ///< unknowns per node
+  int size = 0;        ///< unknowns per node
+  bool given = false;  ///< nodal data (see Unknown): never active, known everywhere
   NodalState now;
   NodalState old;                        ///< at the start of the step
   std::vector<char> active;              ///< per local node: carries unknowns of the system
@@ -68,6 +74,10 @@ class Field {
   /// @throws Error listing those it has
   [[nodiscard]] double constant(const std::string& name) const;
   void set_constant(const std::string& name, double value) { constants_[name] = value; }
+  /// The law by which the physics turns the gradient of its displacement into stress; null when it makes none
+  /// known.
+  [[nodiscard]] const std::shared_ptr<const StressLaw>& stress_law() const { return stress_law_; }
+  void set_stress_law(std::shared_ptr<const StressLaw> law) { stress_law_ = std::move(law); }
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
@@ -110,6 +120,7 @@ class Field {
   std::vector<Unknown> unknowns_;
   std::vector<Place> places_;
   std::map<std::string, double> constants_;
+  std::shared_ptr<const StressLaw> stress_law_;
   std::vector<Block> blocks_;
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;

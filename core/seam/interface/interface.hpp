@@ -9,6 +9,7 @@
 
 #include "seam/assembly/element.hpp"
 #include "seam/cut/body.hpp"
+#include "seam/interface/cell_constant.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
@@ -61,9 +62,22 @@ class Coupling {
   struct SideTerm {
     std::shared_ptr<const Term> term;
     std::vector<Operand> operands;
+    /// What the term reads as Point::constant: of the cells of side 1.
+    std::shared_ptr<const CellConstant> constant = nullptr;
   };
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
+  /// A quantity that vanishes where the conditions hold exactly.
+  struct Mismatch {
+    std::string name;
+    std::shared_ptr<const Term> quantity;
+    std::vector<Operand> operands;
+  };
+  /// Recorded at every step as the time series `interface.name`: the L2 norm over the interface.
+  [[nodiscard]] virtual std::vector<Mismatch> mismatches(const CouplingSides& sides) const {
+    (void)sides;
+    return {};
+  }
 };
 
 }  // namespace seam

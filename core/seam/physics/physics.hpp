@@ -38,6 +38,8 @@ class FieldSetup {
   [[nodiscard]] virtual int boundary_axis(const std::string& boundary) const = 0;
   /// Makes a constant of the physics known to couplings (Field::constant): a density, a viscosity.
   virtual void publish(const std::string& constant, double value) = 0;
+  /// Makes the law of the body's stress known to couplings (Field::stress_law).
+  virtual void publish(std::shared_ptr<const StressLaw> law) = 0;
 
   /// Adds a term over all cells. @param operands the unknowns the kernel's operands 0, 1, ... stand for
   virtual void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
@@ -58,6 +60,8 @@ class FieldSetup {
   /// @param where place in the scene, for the error when two conditions claim the same unknown
   virtual void prescribe(const std::string& boundary, const std::string& unknown, int component,
                          Expression value, const Location& where) = 0;
+  /// Says what a component of a given unknown is, at the nodes and at all times.
+  virtual void give(const std::string& unknown, int component, Expression value) = 0;
   virtual void set_initial(const std::string& unknown, int component, Expression value) = 0;
   virtual void set_initial_rate(const std::string& unknown, int component, Expression value) = 0;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "seam/physics/taylor.hpp"
 #include "seam/term/fad.hpp"
 
 namespace seam {
@@ -17,6 +18,8 @@ class Potential {
   /// @param gradient [arguments]
   /// @param hessian [arguments][arguments]
   virtual void evaluate(const double* x, double& value, double* gradient, double* hessian) const = 0;
+  /// For couplings that differentiate the tangent of a stress. @param third [arguments]^3
+  virtual void third_derivative(const double* x, double* third) const = 0;
 };
 
 /// Makes a Potential of a law that is written once, as a template on the scalar type:
@@ -43,23 +46,34 @@ class LawPotential final : public Potential {
     }
   }
 
+  void third_derivative(const double* x, double* third) const override {
+    using One = Fad<n>;
+    using Two = Fad<n, One>;
+    using Three = Fad<n, Two>;
+    std::array<Three, n> input;
+    for (int i = 0; i < n; ++i) input[i] = Three(Two(One(x[i], i), i), i);
+    const Three result = law_.template energy<Three>(input);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        for (int k = 0; k < n; ++k) third[(i * n + j) * n + k] = result.d[i].d[j].d[k];
+  }
+
  private:
   Law law_;
 };
 
-/// The potential's gradient at x, carrying derivatives if T does.
+/// The potential's gradient at x, carrying derivatives if T does, nested twice at most.
 template <int n, class T>
 std::array<T, n> gradient(const Potential& potential, const std::array<T, n>& x) {
-  double at[n], value = 0, first[n], second[n * n];
+  constexpr int depth = derivative_depth<T>;
+  static_assert(depth <= 2, "a potential has derivatives up to the third");
+  double at[n], value = 0, first[n], second[n * n], third[depth > 1 ? n * n * n : 1];
   for (int i = 0; i < n; ++i) at[i] = plain(x[i]);
   potential.evaluate(at, value, first, second);
+  if constexpr (depth > 1) potential.third_derivative(at, third);
   std::array<T, n> result;
-  for (int i = 0; i < n; ++i) {
-    result[i] = T(first[i]);
-    if constexpr (!std::is_same_v<T, double>)
-      for (int j = 0; j < n; ++j)
-        if (second[i * n + j] != 0) result[i] += second[i * n + j] * (x[j] - at[j]);
-  }
+  for (int i = 0; i < n; ++i)
+    result[i] = taylor<n, T>(x, at, first[i], second + i * n, third + i * n * n * (depth > 1), nullptr);
   return result;
 }
 

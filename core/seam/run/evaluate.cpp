@@ -173,6 +173,20 @@ std::vector<double> interface_integral(const Problem& problem, const std::string
   return integrate(*problem.interfaces().at(interface), quantity, at, problem.communicator());
 }
 
+double interface_norm(const IntegrationDomain& interface, const BoundTerm& quantity, const TimePoint& at,
+                      const Communicator& communicator) {
+  ElementEvaluator evaluator(interface, {quantity});
+  const int dim = interface.fields().front()->mesh().dimension();
+  const auto components = static_cast<std::size_t>(quantity.term->signature(dim).values);
+  double square = 0;
+  for (int e = 0; e < interface.size(); ++e) {
+    const auto& values = evaluator.compute_values(e, at);
+    for (std::size_t i = 0; i < evaluator.element().points * components; ++i)
+      square += evaluator.element().weight[i / components] * values[i] * values[i];
+  }
+  return std::sqrt(communicator.sum(square));
+}
+
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,
                                     const std::string& unknown, const TimePoint& at) {
   const auto& domain = problem.interfaces().at(interface);
@@ -276,39 +290,81 @@ std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const st
   return sum;
 }
 
+namespace {
+
+/// The difference between an unknown, or its gradient, and a known solution on one side of a domain.
+class Difference {
+ public:
+  Difference(const IntegrationDomain& domain, int side, const std::string& unknown, double time)
+      : domain_(domain), field_(*domain.fields()[side]), side_(side), unknown_(unknown) {
+    at_.time = time;
+  }
+  /// @param along_normal take the gradient's component along the normal
+  [[nodiscard]] double norm(Shape shape, const std::vector<Expression>& known, bool along_normal) const {
+    const int dim = field_.mesh().dimension(), size = field_.place(unknown_).components;
+    const int components = size * rows(shape, dim);
+    if (static_cast<int>(known.size()) != components)
+      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown_, components,
+                              known.size()));
+    ElementEvaluator evaluator(
+        domain_, {{std::make_shared<UnknownQuantity>(size, shape, dim), {Operand{side_, unknown_}}}});
+    double square = 0;
+    std::vector<double> difference(components);
+    for (int e = 0; e < domain_.size(); ++e) {
+      const auto& values = evaluator.compute_values(e, at_);
+      const Element& element = evaluator.element();
+      for (int q = 0; q < element.points; ++q) {
+        const double* x = &element.sides[side_].position[static_cast<std::size_t>(q) * dim];
+        for (int c = 0; c < components; ++c)
+          difference[c] = values[static_cast<std::size_t>(q) * components + c] - known[c](x, dim, at_.time);
+        const double* normal = along_normal ? &element.normal[static_cast<std::size_t>(q) * dim] : nullptr;
+        square += element.weight[q] * square_of(difference, normal, dim);
+      }
+    }
+    return std::sqrt(field_.mesh().communicator().sum(square));
+  }
+
+ private:
+  static double square_of(const std::vector<double>& difference, const double* normal, int dim) {
+    double square = 0;
+    for (std::size_t c = 0; c < difference.size(); c += normal ? dim : 1) {
+      double d = difference[c];
+      if (normal) d = std::inner_product(normal, normal + dim, &difference[c], 0.0);
+      square += d * d;
+    }
+    return square;
+  }
+  const IntegrationDomain& domain_;
+  const Field& field_;
+  int side_;
+  std::string unknown_;
+  TimePoint at_;
+};
+
+}  // namespace
+
 ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
                        const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
                        double time) {
-  const Field::Place place = entry.field->place(unknown);
-  const Mesh& mesh = entry.field->mesh();
-  const int dim = mesh.dimension();
   const CellDomain cells(*entry.field, 2 * highest_order(entry) + 4);
-  TimePoint at;
-  at.time = time;
-  const auto norm_of = [&](Shape shape, const std::vector<Expression>& known) {
-    const int components = place.components * rows(shape, dim);
-    if (static_cast<int>(known.size()) != components)
-      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown, components,
-                              known.size()));
-    ElementEvaluator evaluator(
-        cells, {{std::make_shared<UnknownQuantity>(place.components, shape, dim), {Operand{0, unknown}}}});
-    double square = 0;
-    for (int e = 0; e < cells.size(); ++e) {
-      const auto& values = evaluator.compute_values(e, at);
-      const Element& element = evaluator.element();
-      for (int q = 0; q < element.points; ++q)
-        for (int c = 0; c < components; ++c) {
-          const double* x = &element.sides[0].position[static_cast<std::size_t>(q) * dim];
-          const double difference =
-              values[static_cast<std::size_t>(q) * components + c] - known[c](x, dim, time);
-          square += element.weight[q] * difference * difference;
-        }
-    }
-    return std::sqrt(mesh.communicator().sum(square));
-  };
+  const Difference difference(cells, 0, unknown, time);
   ErrorNorms norms;
-  norms.l2 = norm_of(Shape::value, exact);
-  if (!gradient.empty()) norms.h1 = norm_of(Shape::gradient, gradient);
+  norms.l2 = difference.norm(Shape::value, exact, false);
+  if (!gradient.empty()) norms.h1 = difference.norm(Shape::gradient, gradient, false);
+  return norms;
+}
+
+ErrorNorms interface_error_norms(const IntegrationDomain& interface, const FieldEntry& entry,
+                                 const std::string& unknown, const std::vector<Expression>& exact,
+                                 const std::vector<Expression>& gradient, double time) {
+  const std::vector<Field*> fields = interface.fields();
+  const auto side = std::find(fields.begin(), fields.end(), entry.field.get());
+  if (side == fields.end())
+    throw Error(fmt::format("field '{}' lies on no side of {}", entry.name, interface.description()));
+  const Difference difference(interface, static_cast<int>(side - fields.begin()), unknown, time);
+  ErrorNorms norms;
+  norms.l2 = difference.norm(Shape::value, exact, false);
+  if (!gradient.empty()) norms.h1 = difference.norm(Shape::gradient, gradient, true);
   return norms;
 }
 

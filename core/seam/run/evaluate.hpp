@@ -41,6 +41,10 @@ std::vector<double> interface_integral(const Problem& problem, const std::string
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,
                                     const std::string& unknown, const TimePoint& at);
 
+/// L2 norm of a quantity over an interface. Collective.
+double interface_norm(const IntegrationDomain& interface, const BoundTerm& quantity, const TimePoint& at,
+                      const Communicator& communicator);
+
 /// A point of a field: found once, evaluated often.
 class ProbePoint {
  public:
@@ -63,10 +67,15 @@ std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const st
 /// L2 norm of (unknown - exact) and of (gradient - exact gradient) over the field's cells. Collective.
 struct ErrorNorms {
   double l2 = 0;
-  std::optional<double> h1;
+  std::optional<double> h1;  ///< on an interface that of the normal derivative
 };
 ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
                        const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
                        double time);
+/// The same over an interface that one of whose sides is the field. Functions are evaluated at points of the
+/// field's mesh; the normal is the interface's. Collective.
+ErrorNorms interface_error_norms(const IntegrationDomain& interface, const FieldEntry& entry,
+                                 const std::string& unknown, const std::vector<Expression>& exact,
+                                 const std::vector<Expression>& gradient, double time);
 
 }  // namespace seam

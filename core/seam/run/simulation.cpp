@@ -124,8 +124,14 @@ void Simulation::build_couplings(const Registry& registry) {
     const auto coupling = registry.create<Coupling>("coupling", parameters);
     std::vector<BoundTerm> terms;
     try {
-      for (const auto& term : coupling->terms({{built.sides.begin(), built.sides.end()}}))
-        terms.push_back({term.term, term.operands});
+      const CouplingSides sides{{built.sides.begin(), built.sides.end()}};
+      for (const auto& term : coupling->terms(sides))
+        terms.push_back(
+            {term.term, term.operands, term.constant ? built.domain->add_constant(term.constant) : -1});
+      for (const auto& mismatch : coupling->mismatches(sides))
+        problem_.add_mismatch({parameters.text("on") + "." + mismatch.name,
+                               built.domain,
+                               {mismatch.quantity, mismatch.operands}});
       problem_.add_coupling(built.domain, std::move(terms));
     } catch (const Error& error) {
       throw Error(parameters.where(), error.what());
@@ -301,9 +307,13 @@ void Simulation::save_restart() {
 
 void Simulation::finish_errors() {
   for (const auto& [name, p] : scene_.root.object("output").map("errors")) {
-    const ErrorNorms norms = error_norms(
-        problem_.field(p.text("field")), p.text("unknown"), p.vector_expression("exact"),
-        p.has("gradient") ? p.vector_expression("gradient") : std::vector<Expression>{}, state_.time);
+    const FieldEntry& entry = problem_.field(p.text("field"));
+    const auto& exact = p.vector_expression("exact");
+    const auto gradient = p.has("gradient") ? p.vector_expression("gradient") : std::vector<Expression>{};
+    const ErrorNorms norms =
+        p.has("interface") ? interface_error_norms(*problem_.interfaces().at(p.text("interface")), entry,
+                                                   p.text("unknown"), exact, gradient, state_.time)
+                           : error_norms(entry, p.text("unknown"), exact, gradient, state_.time);
     state_.results.once[name + ".l2"] = norms.l2;
     if (norms.h1) state_.results.once[name + ".h1"] = *norms.h1;
   }

@@ -12,12 +12,54 @@
 #include <numbers>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/scene/function.hpp"
 
 namespace seam {
 
 struct Expression::Compiled {
+  virtual ~Compiled() = default;
+  virtual double evaluate(const double* x, int dim, double t) = 0;
+};
+
+struct Expression::Formula final : Expression::Compiled {
   mu::Parser parser;
   std::array<double, 4> variables{};  ///< x, y, z, t
+  double evaluate(const double* x, int dim, double t) override {
+    for (int i = 0; i < 3; ++i) variables[static_cast<std::size_t>(i)] = i < dim ? x[i] : 0.0;
+    variables[3] = t;
+    return parser.Eval();
+  }
+};
+
+namespace {
+
+/// A part of a function with its values where it was evaluated last.
+struct LastValues {
+  std::shared_ptr<const Function> function;
+  int part;
+  std::vector<double> value;
+  std::array<double, 4> at{};
+  bool known = false;
+
+  const std::vector<double>& evaluate(const double* x, int dim, double t) {
+    std::array<double, 4> here{0, 0, 0, t};
+    std::copy_n(x, dim, here.begin());
+    if (known && here == at) return value;
+    function->evaluate(part, x, t, value.data());
+    at = here;
+    known = true;
+    return value;
+  }
+};
+
+}  // namespace
+
+struct Expression::Component final : Expression::Compiled {
+  std::shared_ptr<LastValues> values;
+  std::size_t component = 0;
+  double evaluate(const double* x, int dim, double t) override {
+    return values->evaluate(x, dim, t)[component];
+  }
 };
 
 namespace {
@@ -134,7 +176,7 @@ double finite_value(const mu::Parser& parser, const std::string& text) {
 Expression::Expression(const std::string& text, const std::map<std::string, double>& parameters)
     : text_(text) {
   if (plain_number(text, value_)) return;
-  auto compiled = std::make_shared<Compiled>();
+  auto compiled = std::make_shared<Formula>();
   compile(compiled->parser, text, parameters, compiled->variables.data());
   if (!compiled->parser.GetUsedVar().empty()) {
     compiled_ = std::move(compiled);
@@ -145,10 +187,22 @@ Expression::Expression(const std::string& text, const std::map<std::string, doub
 }
 
 double Expression::operator()(const double* x, int dim, double t) const {
-  if (!compiled_) return value_;
-  for (int i = 0; i < 3; ++i) compiled_->variables[static_cast<std::size_t>(i)] = i < dim ? x[i] : 0.0;
-  compiled_->variables[3] = t;
-  return compiled_->parser.Eval();
+  return compiled_ ? compiled_->evaluate(x, dim, t) : value_;
+}
+
+std::vector<Expression> Expression::components(const std::shared_ptr<const Function>& function, int part) {
+  const Function::Part& named = function->parts().at(static_cast<std::size_t>(part));
+  const auto count = static_cast<std::size_t>(named.components);
+  auto values = std::make_shared<LastValues>(LastValues{function, part, std::vector<double>(count)});
+  std::vector<Expression> result(count);
+  for (std::size_t c = 0; c < count; ++c) {
+    auto component = std::make_shared<Component>();
+    component->values = values;
+    component->component = c;
+    result[c].compiled_ = std::move(component);
+    result[c].text_ = fmt::format("{}[{}]", named.name, c);
+  }
+  return result;
 }
 
 double evaluate_constant(const std::string& text, const std::map<std::string, double>& parameters) {

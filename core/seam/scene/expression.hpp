@@ -9,9 +9,12 @@
 
 namespace seam {
 
+class Function;
+
 /// A scalar function of position and time, written in the scene in muParser's syntax: `"0.002*(t - 1000)"`.
-/// It may use x, y, z, t, pi and the scene's parameters (bare or as `${name}`). Cheap to copy. A copy shares
-/// the compiled expression, so one object must not be evaluated by two threads at once.
+/// It may use x, y, z, t, pi and the scene's parameters (bare or as `${name}`). Or a component of a Function.
+/// Cheap to copy. A copy shares the compiled expression, so one object must not be evaluated by two threads
+/// at once.
 class Expression {
  public:
   /// The constant 0.
@@ -19,6 +22,8 @@ class Expression {
   explicit Expression(double constant) : value_(constant) {}
   /// @throws Error naming the text, the position in it and what is wrong.
   Expression(const std::string& text, const std::map<std::string, double>& parameters);
+  /// One expression per component of a part of a function; at one point and time they share one evaluation.
+  static std::vector<Expression> components(const std::shared_ptr<const Function>& function, int part);
 
   /// @param x position, `dim` entries (missing ones count as 0)
   double operator()(const double* x, int dim, double t) const;
@@ -30,6 +35,8 @@ class Expression {
 
  private:
   struct Compiled;
+  struct Formula;
+  struct Component;
   std::shared_ptr<Compiled> compiled_;
   double value_ = 0.0;
   std::string text_ = "0";

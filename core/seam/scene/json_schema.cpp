@@ -54,7 +54,7 @@ json value_schema(const Parameter& p) {
     case ValueKind::expression:
       return {{"type", {"number", "string"}}};
     case ValueKind::vector_expression:
-      return list_of({{"type", {"number", "string", "null"}}}, p);
+      return {{"anyOf", {list_of({{"type", {"number", "string", "null"}}}, p), word}}};
     case ValueKind::file:
     case ValueKind::reference:
       return word;

@@ -131,6 +131,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
       true,
       [&](const std::string& kind, const std::string& type) { return host.provider(kind, type); },
       {}};
+  create_functions(root, schema, context);
   scene.root = validate(root, schema, context, "");
   cross_check(scene, registry, host.loaded(), context.used_plugins, diagnostics);
   diagnostics.throw_if_errors();

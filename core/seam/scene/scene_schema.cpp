@@ -120,6 +120,12 @@ Schema error_schema() {
   Schema schema("Norms of the difference to a known solution, at the end.");
   schema.reference("field", "whose solution is compared", "field");
   schema.text("unknown", "which of its unknowns");
+  schema
+      .reference("interface",
+                 "over which the norms are taken, .h1 that of the normal derivative; default the "
+                 "whole field",
+                 "interface")
+      .optional();
   schema.vector_expression("exact", "the known solution, one entry per component").entries(-1);
   schema.vector_expression("gradient", "its gradient for the H1 norm: d(1)/dx, d(1)/dy, ..., d(2)/dx, ...")
       .entries(-1)
@@ -195,6 +201,11 @@ Schema scene_schema() {
   schema.names("plugins", "plugins to load").naming("plugin").otherwise("[]");
   schema.names("plugin_folders", "further folders with plugins, relative to the scene").otherwise("[]");
   schema.value_map("parameters", "named constants for expressions in the scene", parameters_schema())
+      .otherwise("{}");
+  schema
+      .typed_map("functions",
+                 "known functions of position and time; expressions use their parts by name: exact.velocity",
+                 "function")
       .otherwise("{}");
   schema.map("meshes", "the meshes", mesh_schema());
   schema.typed_map("fields", "the physics: unknowns on a mesh", "field");

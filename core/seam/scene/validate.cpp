@@ -53,6 +53,29 @@ class Validator {
     return result;
   }
 
+  std::optional<Parameters> typed(const YamlNode& node, const Parameter& p, const std::string& path) {
+    const YamlNode* type = node.kind == Kind::map ? node.find("type") : &node;
+    if (!type) {
+      error(node, fmt::format("{} needs the key 'type': the name of {}. Known types: {}", path, p.target,
+                              listed(context_.registry.names(p.target))));
+      return {};
+    }
+    if (type->kind != Kind::scalar) {
+      mismatch(*type, p, path);
+      return {};
+    }
+    const Registry::Entry* entry = context_.registry.find(p.target, type->scalar);
+    if (!entry) {
+      unknown_type(*type, p, path);
+      return {};
+    }
+    context_.used_plugins.insert(entry->plugin);
+    if (node.kind == Kind::map) return object(node, entry->schema, path, entry->name);
+    YamlNode empty;
+    place_at(empty, node);
+    return object(empty, entry->schema, path, entry->name);
+  }
+
  private:
   void error(const YamlNode& node, const std::string& message) {
     context_.diagnostics.error(node.where(), message);
@@ -244,6 +267,12 @@ class Validator {
       mismatch(node, scalar, path);
       return {};
     }
+    if (const auto part = function_part(node, path)) {
+      if (part->size() == 1) return part->front();
+      if (!part->empty())
+        error(node, fmt::format("{}: '{}' has {} components, expected one", path, node.scalar, part->size()));
+      return {};
+    }
     try {
       Expression result(node.scalar, context_.parameters);
       if (!result.is_constant()) return result;
@@ -254,7 +283,44 @@ class Validator {
     return {};
   }
 
+  /// The components of `function.part`; nothing when the text is something else, none after an error.
+  std::optional<std::vector<Expression>> function_part(const YamlNode& node, const std::string& path) {
+    const std::size_t dot = node.scalar.find('.');
+    if (node.kind != Kind::scalar || dot == std::string::npos || !is_name(node.scalar.substr(0, dot)))
+      return {};
+    const std::string name = node.scalar.substr(0, dot), wanted = node.scalar.substr(dot + 1);
+    const auto found = context_.functions.find(name);
+    if (found == context_.functions.end()) {
+      if (!is_name(wanted)) return {};  // a formula
+      std::vector<std::string> known;
+      for (const auto& entry : context_.functions) known.push_back(entry.first);
+      error(node, fmt::format("{}: there is no function '{}' in `functions`.{} Known: {}", path, name,
+                              did_you_mean(name, known), listed(known)));
+      return std::vector<Expression>{};
+    }
+    if (!found->second) return std::vector<Expression>{};
+    std::vector<std::string> known;
+    for (const Function::Part& part : found->second->parts()) {
+      if (part.name == wanted) return Expression::components(found->second, static_cast<int>(known.size()));
+      known.push_back(part.name);
+    }
+    error(node, fmt::format("{}: function '{}' has no part '{}'.{} It has: {}", path, name, wanted,
+                            did_you_mean(wanted, known), listed(known)));
+    return std::vector<Expression>{};
+  }
+
   std::optional<Value> vector_expression(const YamlNode& node, const Parameter& p, const std::string& path) {
+    if (auto part = function_part(node, path)) {
+      const auto wanted = static_cast<std::size_t>(p.size > 0 ? p.size : context_.dimension);
+      if (part->empty()) return {};
+      if (p.size >= 0 && part->size() != wanted) {
+        error(node, fmt::format("{}: '{}' has {} components, expected {}", path, node.scalar, part->size(),
+                                wanted));
+        return {};
+      }
+      std::vector<bool> given(part->size(), true);
+      return Value{std::move(*part), std::move(given), {}};
+    }
     if (!right_size(node, p)) {
       mismatch(node, p, path);
       return {};
@@ -307,29 +373,6 @@ class Validator {
       return {};
     }
     return Value{std::move(result), {}, {}};
-  }
-
-  std::optional<Parameters> typed(const YamlNode& node, const Parameter& p, const std::string& path) {
-    const YamlNode* type = node.kind == Kind::map ? node.find("type") : &node;
-    if (!type) {
-      error(node, fmt::format("{} needs the key 'type': the name of {}. Known types: {}", path, p.target,
-                              listed(context_.registry.names(p.target))));
-      return {};
-    }
-    if (type->kind != Kind::scalar) {
-      mismatch(*type, p, path);
-      return {};
-    }
-    const Registry::Entry* entry = context_.registry.find(p.target, type->scalar);
-    if (!entry) {
-      unknown_type(*type, p, path);
-      return {};
-    }
-    context_.used_plugins.insert(entry->plugin);
-    if (node.kind == Kind::map) return object(node, entry->schema, path, entry->name);
-    YamlNode empty;
-    place_at(empty, node);
-    return object(empty, entry->schema, path, entry->name);
   }
 
   void unknown_type(const YamlNode& type, const Parameter& p, const std::string& path) {
@@ -403,6 +446,26 @@ class Validator {
 };
 
 }  // namespace
+
+void create_functions(const YamlNode& node, const Schema& schema, ValidationContext& context) {
+  const YamlNode* block = node.find("functions");
+  if (!block || block->kind != Kind::map) return;
+  const Parameter& parameter = *schema.find("functions");
+  for (std::size_t i = 0; i < block->keys.size(); ++i) {
+    const std::string& name = block->keys[i].scalar;
+    std::shared_ptr<const Function>& function = context.functions[name];
+    Diagnostics errors;
+    ValidationContext apart{context.registry, errors, context.dimension, context.parameters,
+                            context.folder,   true,   context.provider,  {}};
+    const auto values = Validator(apart).typed(block->items[i], parameter, "functions." + name);
+    if (!values || errors.has_errors()) continue;
+    try {
+      function = context.registry.create<Function>(parameter.target, *values);
+    } catch (const Error& e) {
+      context.diagnostics.error(values->where(), e.what());
+    }
+  }
+}
 
 Parameters validate(const YamlNode& node, const Schema& schema, ValidationContext& context,
                     const std::string& path) {

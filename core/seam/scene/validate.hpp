@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/plugin/registry.hpp"
+#include "seam/scene/function.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/scene/schema.hpp"
 #include "seam/scene/yaml_tree.hpp"
@@ -27,6 +29,8 @@ struct ValidationContext {
   std::function<std::string(const std::string& kind, const std::string& name)> provider;
   /// Plugins whose types the scene uses. Filled by validate().
   std::set<std::string> used_plugins;
+  /// Named functions whose parts expressions may use; null for one that could not be created.
+  std::map<std::string, std::shared_ptr<const Function>> functions = {};
 };
 
 /// Checks a YAML object against a schema and turns it into values, defaults filled in. All errors go to
@@ -35,6 +39,11 @@ struct ValidationContext {
 /// @param path how messages call the object: "fields.water", "" for the scene itself
 Parameters validate(const YamlNode& node, const Schema& schema, ValidationContext& context,
                     const std::string& path);
+
+/// Creates the functions of a scene's block `functions`, ahead of the validation that needs them: afterwards
+/// expressions may use their parts. What is wrong in the block is left to validate() to report.
+/// @param node the scene
+void create_functions(const YamlNode& node, const Schema& schema, ValidationContext& context);
 
 /// Evaluates a block of named constants, each of which may use those before it.
 std::map<std::string, double> evaluate_parameters(const YamlNode& node, Diagnostics& diagnostics);

@@ -148,6 +148,11 @@ void FieldBuilder::prescribe(const std::string& boundary, const std::string& unk
                                where});
 }
 
+void FieldBuilder::give(const std::string& unknown, int component, Expression value) {
+  const Field::Place place = entry_.field->place(unknown);
+  entry_.given.push_back({place.block, place.offset + component, std::move(value)});
+}
+
 void FieldBuilder::set_initial(const std::string& unknown, int component, Expression value) {
   const Field::Place place = entry_.field->place(unknown);
   entry_.initial.push_back({place.block, place.offset + component, std::move(value), false});

@@ -21,6 +21,9 @@ class FieldBuilder final : public FieldSetup {
   [[nodiscard]] std::vector<std::string> boundaries() const override;
   [[nodiscard]] int boundary_axis(const std::string& boundary) const override;
   void publish(const std::string& constant, double value) override;
+  void publish(std::shared_ptr<const StressLaw> law) override {
+    entry_.field->set_stress_law(std::move(law));
+  }
   void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
@@ -31,6 +34,7 @@ class FieldBuilder final : public FieldSetup {
   void fix_level(const std::string& unknown, double value, std::vector<std::string> open_boundaries) override;
   void prescribe(const std::string& boundary, const std::string& unknown, int component, Expression value,
                  const Location& where) override;
+  void give(const std::string& unknown, int component, Expression value) override;
   void set_initial(const std::string& unknown, int component, Expression value) override;
   void set_initial_rate(const std::string& unknown, int component, Expression value) override;
   void add_output(const std::string& name, std::shared_ptr<const Term> quantity,

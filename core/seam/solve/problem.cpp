@@ -44,6 +44,8 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
   return *entry.field;
 }
 
+void Problem::add_mismatch(InterfaceMismatch mismatch) { mismatches_.push_back(std::move(mismatch)); }
+
 void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms) {
   domains_.emplace_back(std::move(interface), std::move(terms));
 }
@@ -108,7 +110,7 @@ bool Problem::constrains_rates() const {
   for (const FieldEntry& entry : fields_) {
     const auto has_order = [&](int order) {
       return std::any_of(entry.field->unknowns().begin(), entry.field->unknowns().end(),
-                         [&](const Unknown& u) { return u.time_order == order; });
+                         [&](const Unknown& u) { return u.time_order == order && !u.given; });
     };
     if (has_order(0) && has_order(1)) return true;
   }
@@ -170,6 +172,12 @@ void Problem::set_prescribed(double time) {
         block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
             condition.value(block.space->position(node), entry.mesh->dimension(), time);
     }
+    for (const FieldEntry::Given& given : entry.given) {
+      Block& block = entry.field->blocks()[given.block];
+      for (int node = 0; node < block.space->nodes(); ++node)
+        block.now.value[static_cast<std::size_t>(node) * block.size + given.component] =
+            given.value(block.space->position(node), entry.mesh->dimension(), time);
+    }
     for (const LevelCondition& level : entry.levels)
       for (const int node : level.nodes) {
         Block& block = entry.field->blocks()[level.block];
@@ -181,6 +189,7 @@ void Problem::set_prescribed(double time) {
 
 void Problem::begin_step(const TimePoint& at) {
   set_prescribed(at.time);
+  for (auto& [domain, terms] : domains_) domain->forget_constants(true);
   for (FieldEntry& entry : fields_)
     if (entry.cut) entry.cut->begin_step();
   for (FieldEntry& entry : fields_)
@@ -229,6 +238,7 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
 
 SpaceChange Problem::update_spaces(const TimePoint& at) {
   SpaceChange change = update_cuts(at);
+  for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;
   if (change != SpaceChange::none) assembler_->rebuild();

@@ -55,10 +55,22 @@ struct FieldEntry {
     Expression value;
     bool rate;
   };
+  struct Given {
+    int block, component;
+    Expression value;
+  };
+  std::vector<Given> given;
   std::vector<Initial> initial;
   std::vector<LevelCondition> levels;
   std::unique_ptr<FieldCut> cut;  ///< null when nothing cuts the field's mesh
   std::vector<FieldQuantity> outputs, integrals;
+};
+
+/// A quantity of an interface that vanishes where a coupling's conditions hold.
+struct InterfaceMismatch {
+  std::string name;  ///< of the interface and of the quantity: "gamma.velocity"
+  std::shared_ptr<const IntegrationDomain> domain;
+  BoundTerm quantity;
 };
 
 /// What happened to the spaces of a problem.
@@ -79,6 +91,9 @@ class Problem {
                    std::unique_ptr<Physics> physics);
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
+  /// Adds a quantity that vanishes where a coupling's conditions hold.
+  void add_mismatch(InterfaceMismatch mismatch);
+  [[nodiscard]] const std::vector<InterfaceMismatch>& mismatches() const { return mismatches_; }
   /// Lets the interface be found by its name in the scene.
   void name_interface(const std::string& name, std::shared_ptr<IntegrationDomain> interface) {
     interfaces_[name] = std::move(interface);
@@ -160,6 +175,7 @@ class Problem {
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
   std::map<std::string, std::shared_ptr<IntegrationDomain>> interfaces_;
+  std::vector<InterfaceMismatch> mismatches_;
   std::vector<SpaceUpdate> space_updates_;
   std::unique_ptr<Assembler> assembler_;
 };

@@ -134,6 +134,16 @@ struct Fad {
   }
 };
 
+/// True when the number is zero and so are all its derivatives.
+inline bool vanishes(double v) { return v == 0; }
+template <int n, class T>
+bool vanishes(const Fad<n, T>& a) {
+  if (!vanishes(a.v)) return false;
+  for (int i = 0; i < n; ++i)
+    if (!vanishes(a.d[i])) return false;
+  return true;
+}
+
 /// The plain value behind any scalar type.
 inline double plain(double v) { return v; }
 template <int n, class T>

@@ -112,8 +112,11 @@ struct Point {
   /// m, on boundaries and interfaces: volume of side 0's cell over the area of the boundary in it, the length
   /// that scales Nitsche penalties (the whole cell's volume where it is cut).
   double trace_size = 0;
-  double time = 0;  ///< s, end of the step
-  double step = 0;  ///< s; 0 in a static problem
+  /// m, on interfaces: the same material point in the reference configuration of side 1's mesh.
+  Vec<dim, G> partner_position;
+  double constant = 0;  ///< of side 1's cell, prepared beforehand for the term (CellConstant)
+  double time = 0;      ///< s, end of the step
+  double step = 0;      ///< s; 0 in a static problem
   double theta = 1;
 };
 
@@ -263,9 +266,11 @@ Point<dim, G> point(const PointBatch& b, int q) {
   for (int i = 0; i < dim; ++i) {
     p.position[i] = b.position[q * dim + i];
     p.normal[i] = b.normal ? b.normal[q * dim + i] : 0.0;
+    if (b.partner_position) p.partner_position[i] = b.partner_position[q * dim + i];
   }
   p.cell_size = b.cell_size[q];
   p.trace_size = b.trace_size[q];
+  if (b.constant) p.constant = b.constant[q];
   p.time = b.time;
   p.step = b.step;
   p.theta = b.theta;
@@ -391,6 +396,7 @@ class KernelTerm final : public Term {
         const int k = (q * dim + i) * points.moves + m;
         point.position[i].d[columns + m] = points.position_change[k];
         point.normal[i].d[columns + m] = points.normal_change[k];
+        point.partner_position[i].d[columns + m] = points.partner_change[k];
       }
     return point;
   }

@@ -24,6 +24,19 @@ class Right : public seam::Potential {
     for (int i = 0; i < 9; ++i) hessian[i] = 0;
     hessian[8] = mu / (j * j) + bulk;
   }
+  void third_derivative(const double* x, double* third) const override {
+    for (int i = 0; i < 27; ++i) third[i] = 0;
+    third[26] = -80 / (x[2] * x[2] * x[2]);
+  }
+};
+
+/// Only couplings that differentiate the tangent would notice.
+class WrongThird final : public Right {
+ public:
+  void third_derivative(const double* x, double* third) const override {
+    Right::third_derivative(x, third);
+    third[26] *= 0.99;
+  }
 };
 
 /// The tangent lacks a term: Newton still converges, only more slowly.
@@ -97,6 +110,7 @@ SEAM_PLUGIN(registry) {
   const seam::Schema described("A material for the tests.");
   declare<Right>(registry, "right", described);
   declare<WrongHessian>(registry, "wrong_hessian", described);
+  declare<WrongThird>(registry, "wrong_third", described);
   declare<WrongEnergy>(registry, "wrong_energy", described);
   declare<Remembers>(registry, "remembers", described);
   declare<Counts>(registry, "counts", described);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace seam {
+
+/// Known functions of position and time that belong together, such as the fields of an exact solution. A type
+/// of kind "function": a scene names it in its block `functions`, and expressions use its parts by name,
+/// `exact.velocity`.
+class Function {
+ public:
+  virtual ~Function() = default;
+  struct Part {
+    std::string name;
+    int components;  ///< a tensor row by row: the derivative's direction runs fastest
+  };
+  [[nodiscard]] virtual const std::vector<Part>& parts() const = 0;
+  /// @param part index into parts()
+  /// @param x position, [dimension of the scene]
+  /// @param value [components]
+  virtual void evaluate(int part, const double* x, double t, double* value) const = 0;
+};
+
+}  // namespace seam

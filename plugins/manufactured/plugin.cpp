@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/plugin/plugin.hpp"
+
+#include "fsi_vortices.hpp"
+
+SEAM_PLUGIN(registry) { seam::manufactured::declare_fsi_vortices(registry); }

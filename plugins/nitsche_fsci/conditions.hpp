@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <type_traits>
+#include <vector>
+
+#include "seam/scene/expression.hpp"
+#include "seam/term/kernel_term.hpp"
+
+/// Coupling of a fluid (side 0) with a deforming body (side 1) by Nitsche's method: what both
+/// representations of the traction share.
+namespace seam::fsci {
+
+using Velocity = Vector<0>;
+using Pressure = Scalar<1>;
+using Displacement = Vector<2>;
+
+/// What the coupling needs to know of the fluid.
+struct Flow {
+  double density;    ///< kg/m^3
+  double viscosity;  ///< dynamic, Pa s
+  bool convection;   ///< false: Stokes flow
+};
+
+/// A given difference between the two sides: a function at the place where the point is now minus one at the
+/// material point of the body. Empty lists stand for zero.
+struct Jump {
+  std::vector<Expression> fluid, body;
+
+  /// Its `count` components at a point.
+  template <int count, int dim, class G>
+  [[nodiscard]] Vec<count, G> at(const Point<dim, G>& x) const {
+    Vec<count, G> value;
+    add<count, dim, G>(fluid, 1, x.position, x, value);
+    add<count, dim, G>(body, -1, x.partner_position, x, value);
+    return value;
+  }
+
+ private:
+  template <int count, int dim, class G>
+  static void add(const std::vector<Expression>& functions, double sign, const Vec<dim, G>& position,
+                  const Point<dim, G>& x, Vec<count, G>& value) {
+    if (functions.empty()) return;
+    double here[dim];
+    for (int i = 0; i < dim; ++i) here[i] = plain(position[i]);
+    for (int c = 0; c < count; ++c) value[c] += sign * functions[c](here, dim, x.time);
+    if constexpr (!std::is_same_v<G, double>) {
+      // Functions give values; for a tangent their differences are exact enough.
+      const double step = 1e-5 * x.cell_size;
+      for (int i = 0; i < dim; ++i) {
+        double slope[count];
+        here[i] += step;
+        for (int c = 0; c < count; ++c) slope[c] = functions[c](here, dim, x.time);
+        here[i] -= 2 * step;
+        for (int c = 0; c < count; ++c) slope[c] = (slope[c] - functions[c](here, dim, x.time)) / (2 * step);
+        here[i] += step;
+        const G moved = position[i] - here[i];
+        for (int c = 0; c < count; ++c) value[c] += (sign * slope[c]) * moved;
+      }
+    }
+  }
+};
+
+/// The jumps of a manufactured solution, thesis (3.47), (3.48): v = du/dt + g_v and
+/// (sigma_F - sigma_S) n = g_sigma.
+struct Jumps {
+  Jump velocity;  ///< m/s
+  Jump stress;    ///< Pa, row by row
+
+  /// J = v - du/dt - g_v.
+  template <int dim, class T, class G>
+  [[nodiscard]] Vec<dim, T> mismatch(const Point<dim, G>& x, const Vec<dim, T>& velocity_of_fluid,
+                                     const Vec<dim, T>& velocity_of_body) const {
+    Vec<dim, T> jump = velocity_of_fluid - velocity_of_body;
+    jump -= velocity.at<dim>(x);
+    return jump;
+  }
+  /// g_sigma, with the normal as it is.
+  template <int dim, class G>
+  [[nodiscard]] Vec<dim, G> traction(const Point<dim, G>& x) const {
+    Mat<dim, dim, G> difference;
+    difference.c = stress.at<dim * dim>(x).c;
+    return difference * x.normal;
+  }
+};
+
+/// J: what the kinematic condition misses.
+struct VelocityMismatch {
+  using Reads = Slots<Value<Velocity>, Rate<Displacement>>;
+  static constexpr int values(int dim) { return dim; }
+  Jumps jumps;
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    const auto j = jumps.mismatch<dim, double>(x, s.value(Velocity{}), s.rate(Displacement{}));
+    std::copy(j.c.begin(), j.c.end(), value);
+  }
+};
+
+}  // namespace seam::fsci
