@@ -85,3 +85,26 @@ TEST_CASE("the adjoint term hardly matters where the penalty suffices") {
   // On coarser meshes the pressure on the interface sees it.
   CHECK(with.at("p_on.l2") / without.at("p_on.l2") == Approx(0.75).epsilon(0.1));
 }
+
+TEST_CASE("the solid-sided penalty may vary over eight decades where the adjoint term is kept") {
+  const auto c02 = [](const Material& material, const std::string& adjoint, const std::string& gamma) {
+    return run("c02.yaml", 16,
+               material.values + " --set coupling.0.adjoint=" + adjoint + " --set parameters.gamma=" + gamma);
+  };
+  for (const Material& material : {mid, stiff})
+    for (const std::string adjoint : {"skew", "none"}) {
+      INFO(material.name << ", adjoint " << adjoint);
+      const Errors least = c02(material, adjoint, "1e-4"), small = c02(material, adjoint, "0.1"),
+                   middle = c02(material, adjoint, "10"), most = c02(material, adjoint, "1e4");
+      // The more penalty, the better the condition holds; far too much spoils the stresses.
+      CHECK(small.at("gamma.mismatch") < least.at("gamma.mismatch"));
+      CHECK(middle.at("gamma.mismatch") < small.at("gamma.mismatch"));
+      CHECK(most.at("gamma.mismatch") < middle.at("gamma.mismatch"));
+      CHECK(most.at("p_on.l2") > 1.2 * middle.at("p_on.l2"));
+      if (material.name != "C-stiff") continue;
+      if (adjoint == "skew")
+        CHECK(least.at("v.l2") < 1.1 * middle.at("v.l2"));
+      else
+        CHECK(least.at("v.l2") > 1.5 * middle.at("v.l2"));
+    }
+}

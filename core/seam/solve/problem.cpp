@@ -164,6 +164,15 @@ void Problem::add_initial_rates(const std::vector<double>& increment) {
     }
 }
 
+void Problem::set_given(FieldEntry& entry, double time) {
+  for (const FieldEntry::Given& given : entry.given) {
+    Block& block = entry.field->blocks()[given.block];
+    for (int node = 0; node < block.space->nodes(); ++node)
+      block.now.value[static_cast<std::size_t>(node) * block.size + given.component] =
+          given.value(block.space->position(node), entry.mesh->dimension(), time);
+  }
+}
+
 void Problem::set_prescribed(double time) {
   for (FieldEntry& entry : fields_) {
     for (const PrescribedCondition& condition : entry.conditions) {
@@ -172,12 +181,7 @@ void Problem::set_prescribed(double time) {
         block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
             condition.value(block.space->position(node), entry.mesh->dimension(), time);
     }
-    for (const FieldEntry::Given& given : entry.given) {
-      Block& block = entry.field->blocks()[given.block];
-      for (int node = 0; node < block.space->nodes(); ++node)
-        block.now.value[static_cast<std::size_t>(node) * block.size + given.component] =
-            given.value(block.space->position(node), entry.mesh->dimension(), time);
-    }
+    set_given(entry, time);
     for (const LevelCondition& level : entry.levels)
       for (const int node : level.nodes) {
         Block& block = entry.field->blocks()[level.block];
@@ -230,6 +234,7 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
     const bool same = was_known && before == entry.cut->active_cells() &&
                       (entry.field->sets() == 1 || (sets && sets->same_sets(*entry.field->layout())));
     occupy(entry, entry.cut->active_cells(), &entry.cut->mesh());
+    if (!same) set_given(entry, at.time);  // nodes of further sets of unknowns may have come
     change = std::max(change, communicator_.any(!same) ? SpaceChange::unknowns : SpaceChange::geometry);
   }
   if (change != SpaceChange::none) update_rates(at);
