@@ -42,7 +42,8 @@ struct Vote {
   double volume;
 };
 
-/// [set now]: the set that it was before, or none. No set is taken twice.
+/// [set now]: the set that it was before, or none. A set is taken twice only when there are not enough: fluid
+/// that comes apart had the same functions everywhere.
 std::vector<int> elect(const std::vector<Vote>& votes, int sets) {
   std::vector<std::vector<double>> sum(sets, std::vector<double>(sets, 0.0));
   for (const Vote& v : votes) sum[v.now][v.before] += v.volume;
@@ -55,6 +56,8 @@ std::vector<int> elect(const std::vector<Vote>& votes, int sets) {
   for (const auto& [volume, now, before] : candidates)
     if (source[now] == none && std::find(source.begin(), source.end(), before) == source.end())
       source[now] = before;
+  for (const auto& [volume, now, before] : candidates)
+    if (source[now] == none) source[now] = before;
   return source;
 }
 

@@ -30,7 +30,8 @@ class PartSets {
 
 /// Brings states to the sets that the same parts of the fluid use now: a new set takes over from that one of
 /// the node which the parts around it used before, by their volume; a part is recognised in its cell by its
-/// centre. Sets that take over from none are not known afterwards. Collective.
+/// centre. Where fluid has come apart, several sets take over from one. Sets that take over from none are not
+/// known afterwards. Collective.
 /// @param cut how bodies cut the field now
 void carry_over(Field& field, const PartLayout& before, const PartLayout& now, const CutMesh& cut);
 
