@@ -42,8 +42,14 @@ struct Vote {
   double volume;
 };
 
-/// [set now]: the set that it was before, or none. No set is taken twice.
-std::vector<int> elect(const std::vector<Vote>& votes, int sets) {
+/// What a set of a node was before.
+struct Source {
+  int set = none;
+  bool shared = false;  ///< another one has a better claim to it
+};
+
+/// [set now]
+std::vector<Source> elect(const std::vector<Vote>& votes, int sets) {
   std::vector<std::vector<double>> sum(sets, std::vector<double>(sets, 0.0));
   for (const Vote& v : votes) sum[v.now][v.before] += v.volume;
   std::vector<std::tuple<double, int, int>> candidates;
@@ -51,19 +57,24 @@ std::vector<int> elect(const std::vector<Vote>& votes, int sets) {
     for (int m = 0; m < sets; ++m)
       if (sum[k][m] > 0) candidates.emplace_back(-sum[k][m], k, m);
   std::sort(candidates.begin(), candidates.end());
-  std::vector<int> source(sets, none);
+  std::vector<Source> source(sets);
+  std::vector<char> taken(sets, 0);
   for (const auto& [volume, now, before] : candidates)
-    if (source[now] == none && std::find(source.begin(), source.end(), before) == source.end())
-      source[now] = before;
+    if (source[now].set == none && !taken[before]) {
+      source[now].set = before;
+      taken[before] = 1;
+    }
+  for (const auto& [volume, now, before] : candidates)
+    if (source[now].set == none) source[now] = {before, true};
   return source;
 }
 
 /// @return whether anything moved
-bool move_states(Block& block, int node, const std::vector<int>& source, const std::vector<char>& used) {
+bool move_states(Block& block, int node, const std::vector<Source>& source, const std::vector<char>& used) {
   const Space& space = *block.space;
   const int sets = space.sets();
   bool same = true;
-  for (int k = 0; k < sets; ++k) same = same && (!used[k] || source[k] == k);
+  for (int k = 0; k < sets; ++k) same = same && (!used[k] || (source[k].set == k && !source[k].shared));
   if (same) return false;
   for (auto* values : {&block.now.value, &block.now.rate, &block.now.second_rate, &block.old.value,
                        &block.old.rate, &block.old.second_rate})
@@ -74,12 +85,15 @@ bool move_states(Block& block, int node, const std::vector<int>& source, const s
       };
       for (int k = 0; k < sets; ++k) former[k] = at(k);
       for (int k = 0; k < sets; ++k)
-        if (source[k] != none) at(k) = former[source[k]];
+        if (source[k].set != none) at(k) = former[source[k].set];
     }
   std::vector<char> known(sets);
   for (int k = 0; k < sets; ++k) known[k] = block.known[space.in_set(node, k)];
-  for (int k = 0; k < sets; ++k)
-    block.known[space.in_set(node, k)] = source[k] == none ? 0 : known[source[k]];
+  for (int k = 0; k < sets; ++k) {
+    char& now = block.known[space.in_set(node, k)];
+    now = source[k].set == none ? 0 : known[source[k].set];
+    if (now == 1 && source[k].shared) now = known_if_needed;
+  }
   return true;
 }
 

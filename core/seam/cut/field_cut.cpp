@@ -70,7 +70,7 @@ void FieldCut::choose_sets() {
   }
   layout_ = now;
   field_->set_layout(layout_);
-  if (!before) accept_states();
+  accept_states(!before);
 }
 
 /// Parts of a cell are recognised by where they lie, as long as a body moves by less than half a cell.
@@ -104,17 +104,25 @@ void FieldCut::check_motion(const PartLayout& before) const {
                     field_->name(), most));
 }
 
-/// At the start, of a part that no node of its own is in, values at its nodes are all that is known.
-void FieldCut::accept_states() {
+/// Of a part none of whose nodes is known, as one that is about to be closed off, second-rate states are
+/// taken: there is nothing that they could be extended from.
+/// @param at_start whatever the nodes have is such a state
+void FieldCut::accept_states(bool at_start) {
   for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) {
     Block& block = field_->blocks()[b];
     const std::vector<char> known = block.known;
+    const auto is_second_rate = [&](int n) {
+      return known[n] == known_if_needed || (at_start && known[n] == 0);
+    };
+    std::replace(block.known.begin(), block.known.end(), known_if_needed, char{0});
     for (int c = 0; c < field_->mesh().cells(); ++c)
       for (int p = 0; p < field_->parts(c) && active_[c] != 0; ++p) {
         const int* nodes = field_->cell_nodes(b, c, p);
         const int* end = nodes + block.space->nodes_per_cell();
-        if (std::none_of(nodes, end, [&](int n) { return known[n] != 0; }))
-          std::for_each(nodes, end, [&](int n) { block.known[n] = 1; });
+        if (std::any_of(nodes, end, [&](int n) { return known[n] == 1; })) continue;
+        std::for_each(nodes, end, [&](int n) {
+          if (is_second_rate(n)) block.known[n] = 1;
+        });
       }
     block.space->halo().update(block.known, 1);
   }

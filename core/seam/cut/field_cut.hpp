@@ -66,7 +66,7 @@ class FieldCut {
   [[nodiscard]] bool states_match() const;
   void choose_sets();
   void check_motion(const PartLayout& before) const;
-  void accept_states();
+  void accept_states(bool at_start);
   [[nodiscard]] std::vector<char> open_parts(const FluidParts& parts) const;
   [[nodiscard]] std::vector<int> decide();
   [[nodiscard]] std::vector<int> follow_decision() const;
