@@ -26,7 +26,9 @@ Schema time_schema() {
       .above(0)
       .optional();
   step.boolean("adaptive", "choose the steps by an estimate of the time error").otherwise("false");
-  step.number("tolerance", "of an adaptive step's error, relative to the unknowns").above(0).otherwise("1e-3");
+  step.number("tolerance", "of an adaptive step's error, relative to the unknowns")
+      .above(0)
+      .otherwise("1e-3");
   step.file("replay", "series.csv of an earlier run whose steps are taken again").optional();
 
   Schema schema("The time span and how it is stepped through.");
