@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Parts of a field too small to be kept, through the cuts of one step.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "cut/cut_test.hpp"
@@ -67,4 +68,35 @@ TEST_CASE("What the first cut of a step keeps stays in for the step", "[cut][par
   CHECK(cut.dropped_volume() == Approx(1.8 * h * h).epsilon(1e-12));
   cut.begin_step();
   CHECK_FALSE(cut.update(0));
+}
+
+TEST_CASE("Held cells keep their unknowns to the end of the step though a body covers them", "[cut][parts]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {10, 10, 0}, unmoved());
+  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
+  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
+  FieldCut cut(field);
+  double radius = 0.21;
+  cut.add_body([&](double) { return circle({0.5, 0.5, 0}, radius, 40); });
+  const auto active = [&] { return std::count(cut.active_cells().begin(), cut.active_cells().end(), 1); };
+  CHECK(cut.update(0));
+  const auto before = active();
+  cut.hold();
+  radius = 0.29;
+  CHECK(cut.update(0));
+  CHECK(active() == before);
+  // Cells without any fluid have no points to integrate at.
+  CutRule rule;
+  int covered = 0;
+  for (int c = 0; c < mesh.cells(); ++c) {
+    if (cut.active_cells()[c] == 0 || cut.mesh().state(c) != CellState::body) continue;
+    ++covered;
+    CHECK(field.is_cut(c));
+    cut.mesh().volume_rule(c, 2, rule);
+    CHECK(rule.count() == 0);
+  }
+  CHECK(covered > 0);
+  cut.begin_step();
+  radius = 0.28;
+  CHECK(cut.update(0));
+  CHECK(active() < before);
 }

@@ -41,15 +41,13 @@ bool FieldCut::update(double time) {
   time_ = time;
   const bool decides = !decided_;
   decided_ = true;
+  if (decides) held_.clear();
   if (surfaces == surfaces_ && (is_first_cut_ || !decides) && states_match()) return false;
   mesh_.cut(surfaces);
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
   dropped_volume_ = mesh_.drop(decides ? decide() : follow_decision());
-  if (decides) {
-    area_.clear();
-    held_.clear();
-  }
+  if (decides) area_.clear();
   for (const int c : mesh_.cut_cells()) area_.try_emplace(c, mesh_.interface_area(c));
   for (int c = 0; c < field_->mesh().cells(); ++c)
     active_[c] = mesh_.state(c) != CellState::body || (!held_.empty() && held_[c] != 0) ? 1 : 0;

@@ -241,7 +241,7 @@ bool Simulation::try_step(double until) {
     return false;
   }
   last_time_error_ = stepper_.adaptive() && !stepper_.is_static() ? time_error(at) : 0;
-  if (stepper_.too_inaccurate(last_time_error_)) {
+  if (stepper_.too_inaccurate(last_time_error_, until - state_.time)) {
     reports_.back().converged = false;
     reports_.back().reason = fmt::format("its error in time is {:.1e}", last_time_error_);
     problem_.restore(before);

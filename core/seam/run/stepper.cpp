@@ -61,20 +61,23 @@ double Stepper::target(double time, double planned) const {
   const double slack = 1e-10 * (end_ - start_);
   const auto next = std::upper_bound(replay_.begin(), replay_.end(), time + slack);
   if (next != replay_.end()) return std::min(*next, time + planned);
+  if (!adaptive_) planned = std::min(planned, to_grid(time));
   const double stop = *std::upper_bound(kinks_.begin(), kinks_.end() - 1, time + slack);
   // No crumbs: a step up to a hundredth longer or shorter than planned swallows them.
   return stop - time < 1.01 * planned ? stop : time + planned;
 }
 
+/// From a time to the next one of the given grid: there a run with fixed steps returns after a failed step or
+/// a kink.
+double Stepper::to_grid(double time) const {
+  const double done = (time - start_) / initial_;
+  const double rest = (std::floor(done + 1 + 1e-9) - done) * initial_;
+  return rest < 0.01 * initial_ ? rest + initial_ : rest;
+}
+
 double Stepper::after_success(double time, double planned, double taken, double error, int iterations) const {
   if (!replay_.empty()) return end_ - start_;
-  if (!adaptive_) {
-    // After a failed step, or a kink, return to the given grid of times.
-    const double done = (time - start_) / initial_;
-    double to_grid = (std::floor(done + 1 + 1e-9) - done) * initial_;
-    if (to_grid < 0.01 * initial_) to_grid += initial_;
-    return std::min(2 * std::max(planned, taken), to_grid);
-  }
+  if (!adaptive_) return std::min(2 * planned, initial_);
   const bool at_kink = std::binary_search(kinks_.begin(), kinks_.end(), time);
   if (at_kink) return std::min(initial_, std::max(planned, taken));
   constexpr double most = 1.5;
@@ -93,6 +96,9 @@ std::optional<double> Stepper::after_failure(double taken) const {
   return shorter;
 }
 
-bool Stepper::too_inaccurate(double error) const { return adaptive_ && error > 10 * tolerance_; }
+bool Stepper::too_inaccurate(double error, double taken) const {
+  // Not below the first step: what starts from rest has the same relative error with any step.
+  return adaptive_ && error > 10 * tolerance_ && taken > 1.01 * initial_;
+}
 
 }  // namespace seam

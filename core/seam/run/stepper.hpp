@@ -36,10 +36,11 @@ class Stepper {
   /// The length to try after a step of length `taken` failed; none when there is no use in trying.
   [[nodiscard]] std::optional<double> after_failure(double taken) const;
   /// True when the error of an adaptive step is so large that it must be repeated with a shorter one.
-  [[nodiscard]] bool too_inaccurate(double error) const;
+  [[nodiscard]] bool too_inaccurate(double error, double taken) const;
 
  private:
   void read_steps(const Parameters& step);
+  [[nodiscard]] double to_grid(double time) const;
   bool static_ = true, adaptive_ = false, depends_on_time_ = false;
   double theta_ = 1, start_ = 0, end_ = 1;
   double initial_ = 1, minimum_ = 1e-6, maximum_ = 1, tolerance_ = 1e-3;

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which time steps a run takes.
+#include "cli/run_command.hpp"
+#include "series.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+/// A block that a load pulls, with a kink in time. @param time the scene's time block
+std::string scene(const std::string& load, const std::string& time) {
+  return "title: a block\ndimension: 2\nplugins: [solid]\nparameters: {late: 0.2}\n"
+         "meshes: {block: {grid: {from: [0, 0], to: [1, 1], cells: [2, 2]}}}\n"
+         "fields:\n  block:\n    type: solid\n    mesh: block\n    density: 1\n"
+         "    material: {type: neo_hookean, young: 10, poisson: 0.3}\n"
+         "    boundary: [{on: x_min, displacement: [0, 0]}, {on: x_max, traction: [\"" +
+         load +
+         "\", 0]}]\noutput: {fields: false, probes: {tip: {field: block, at: [1, 0.5], quantity: "
+         "displacement}}}\ntime: " +
+         time + "\n";
+}
+
+std::vector<double> times(const Folder& folder, const std::string& where) {
+  std::vector<double> result;
+  for (const auto& row : table(folder.read(where + "/series.csv"))) result.push_back(row[0]);
+  return result;
+}
+
+Result run(const Folder& folder, const std::string& file, const std::string& where) {
+  return seam("run " + file + " --quiet --no-picture --folder " + (folder.path / where).string());
+}
+
+bool contains(const std::vector<double>& list, double value) {
+  return std::find(list.begin(), list.end(), value) != list.end();
+}
+
+}  // namespace
+
+TEST_CASE("steps end exactly at the kinks of loads and return to their grid") {
+  const Folder folder;
+  const std::string file = folder.file(
+      "kinks.yaml", scene("t <= 0.3 + late/3 ? 0 : min(t, 0.77)", "{end: 1, step: {initial: 0.1}}"));
+  REQUIRE(run(folder, file, "r").code == 0);
+  const std::vector<double> taken = times(folder, "r");
+  CHECK(contains(taken, 0.3 + 0.2 / 3));
+  CHECK(contains(taken, 0.77));
+  CHECK(taken.back() == 1);
+  REQUIRE(taken.size() == 13);  // the start, ten steps of the grid and two kinks
+  CHECK(taken[5] == Approx(0.4));
+  CHECK(taken[10] == Approx(0.8));
+}
+
+TEST_CASE("adaptive steps are small where a load sets in, grow, and can be taken again") {
+  const Folder folder;
+  const std::string load = "t <= 0.5 ? 0 : 1";
+  const std::string adaptive = "{end: 4, step: {initial: 0.02, adaptive: true, tolerance: 1e-2";
+  REQUIRE(run(folder, folder.file("a.yaml", scene(load, adaptive + "}}")), "first").code == 0);
+  const std::vector<double> first = times(folder, "first");
+  const auto kink = std::find(first.begin(), first.end(), 0.5);
+  REQUIRE(kink + 1 < first.end());
+  CHECK(*(kink + 1) - *kink <= 0.02 + 1e-12);
+  CHECK(*kink - *(kink - 1) > 0.05);
+  const std::string again = adaptive + ", replay: first/series.csv}}";
+  REQUIRE(run(folder, folder.file("b.yaml", scene(load, again)), "second").code == 0);
+  CHECK(folder.read("first/series.csv") == folder.read("second/series.csv"));
+}
+
+TEST_CASE("a static problem that does not depend on time is not tried again in vain") {
+  const Folder folder;
+  const std::string text =
+      scene("-1000", "{static: true, end: 1}") + "solver: {newton: {maximum_iterations: 1}}\n";
+  const Result result = run(folder, folder.file("crushed.yaml", text), "r");
+  CHECK(result.code != 0);
+  CHECK_THAT(result.output, Catch::Contains("from t = 0 fails down to a length of 1:"));
+}
