@@ -15,16 +15,19 @@ namespace {
 
 bool is_name(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-/// Calls visit(text) for every scalar of a document but those that are prose.
-void visit_scalars(const YAML::Node& node, const std::function<void(const std::string&)>& visit) {
-  if (node.IsScalar()) visit(node.Scalar());
-  if (node.IsSequence())
-    for (const YAML::Node& entry : node) visit_scalars(entry, visit);
+using Visit = std::function<void(const std::string& path, const std::string& text)>;
+
+/// Calls visit for every scalar of a document but those that are prose.
+/// @param path of the node: keys and numbers with a dot behind each
+void visit_scalars(const YAML::Node& node, const std::string& path, const Visit& visit) {
+  if (node.IsScalar()) visit(path, node.Scalar());
+  for (std::size_t k = 0; node.IsSequence() && k < node.size(); ++k)
+    visit_scalars(node[k], path + std::to_string(k) + ".", visit);
   if (!node.IsMap()) return;
   for (const auto& entry : node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
     if (key != "title" && key != "source" && key != "study" && key != "checks")
-      visit_scalars(entry.second, visit);
+      visit_scalars(entry.second, path + key + ".", visit);
   }
 }
 
@@ -87,9 +90,16 @@ void examine(const std::string& text, const std::map<std::string, double>& param
 
 TimeUse find_time_use(const Scene& scene) {
   TimeUse use;
-  const auto examine_text = [&](const std::string& text) { examine(text, scene.parameters, use); };
-  visit_scalars(YAML::Load(scene.text), examine_text);
-  for (const auto& [path, value] : scene.overrides) visit_scalars(YAML::Load(value), examine_text);
+  const auto replaced = [&](const std::string& path) {
+    return std::any_of(scene.overrides.begin(), scene.overrides.end(),
+                       [&](const auto& entry) { return path.starts_with(entry.first + "."); });
+  };
+  visit_scalars(YAML::Load(scene.text), "", [&](const std::string& path, const std::string& text) {
+    if (!replaced(path)) examine(text, scene.parameters, use);
+  });
+  for (const auto& entry : scene.overrides)
+    visit_scalars(YAML::Load(entry.second), "",
+                  [&](const std::string&, const std::string& text) { examine(text, scene.parameters, use); });
   std::sort(use.kinks.begin(), use.kinks.end());
   use.kinks.erase(std::unique(use.kinks.begin(), use.kinks.end()), use.kinks.end());
   return use;
