@@ -17,6 +17,8 @@ fail() {
 cmake --install "$build" --prefix "$work/seam" >/dev/null
 # A copy, so that nothing is found by its place in the source tree.
 cp -r "$source/tools/template" "$work/template"
+# Paths stay absolute, whatever a compiler cache is told elsewhere: they are looked at below.
+export CCACHE_BASEDIR=
 launcher=
 if command -v ccache >/dev/null; then launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
 cmake -S "$work/template" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/seam" $launcher \
