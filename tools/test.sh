@@ -37,7 +37,7 @@ count_one() { if [ "$1" = 0 ]; then count 1 0; else count 0 1; fi; }
 run_ctest() {
   local folder=$1 log=$1/ctest.log
   shift
-  ctest --test-dir "$folder" -V -j "$seam_jobs" --timeout 900 "$@" >"$log" 2>&1
+  ctest --test-dir "$folder" -V -j "$seam_jobs" --timeout 1800 "$@" >"$log" 2>&1
   local code=$?
   grep -E '^ *[0-9]+/[0-9]+ Test +#' "$log"
   if [ $code != 0 ]; then

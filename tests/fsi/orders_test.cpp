@@ -39,7 +39,7 @@ double order(const Errors& coarse, const Errors& fine, const std::string& norm) 
 
 }  // namespace
 
-TEST_CASE("both representations of the traction converge with the expected orders") {
+TEST_CASE("both representations of the traction converge with the expected orders", "[study]") {
   for (const Material& material : {mid, stiff, viscous})
     for (const std::string stress : {"fluid", "solid"}) {
       INFO(material.name << ", stress of the " << stress);
@@ -58,7 +58,7 @@ TEST_CASE("both representations of the traction converge with the expected order
     }
 }
 
-TEST_CASE("the two representations relate as their penalties do") {
+TEST_CASE("the two representations relate as their penalties do", "[study]") {
   const Errors fluid = c01(mid, "fluid", 32), solid = c01(mid, "solid", 32);
   CHECK(solid.at("gamma.mismatch") > 1.2 * fluid.at("gamma.mismatch"));
   const Errors stiff_fluid = c01(stiff, "fluid", 32), stiff_solid = c01(stiff, "solid", 32);
@@ -75,7 +75,7 @@ TEST_CASE("the two representations relate as their penalties do") {
   CHECK(viscous_solid.at("gamma.mismatch") > viscous_fluid.at("gamma.mismatch"));
 }
 
-TEST_CASE("the adjoint term hardly matters where the penalty suffices") {
+TEST_CASE("the adjoint term hardly matters where the penalty suffices", "[study]") {
   const Errors with = c01(mid, "fluid", 32), without = c01(mid, "fluid", 32, "none");
   for (const auto* norm : {"v.l2", "p.l2", "v.h1", "u.l2", "u.h1", "v_on.h1", "u_on.h1", "gamma.mismatch"}) {
     INFO(norm);
@@ -86,7 +86,7 @@ TEST_CASE("the adjoint term hardly matters where the penalty suffices") {
   CHECK(with.at("p_on.l2") / without.at("p_on.l2") == Approx(0.75).epsilon(0.1));
 }
 
-TEST_CASE("the solid-sided penalty may vary over eight decades where the adjoint term is kept") {
+TEST_CASE("the solid-sided penalty may vary over eight decades where the adjoint term is kept", "[study]") {
   const auto c02 = [](const Material& material, const std::string& adjoint, const std::string& gamma) {
     return run("c02.yaml", 16,
                material.values + " --set coupling.0.adjoint=" + adjoint + " --set parameters.gamma=" + gamma);

@@ -65,7 +65,8 @@ std::size_t column(const Folder& folder, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("a level set in a scene cuts out what it says, at second order, on all numbers of ranks") {
+TEST_CASE("a level set in a scene cuts out what it says, at second order, on all numbers of ranks",
+          "[study]") {
   const Folder folder;
   const std::string file = folder.file("disc.yaml", scene(moving_disc));
   std::vector<double> error;

@@ -30,7 +30,7 @@ TEST_CASE("a run with a moving cut continues to the bit, also on other numbers o
   CHECK(difference(series(folder, "whole"), series(folder, "ranks")) < 1e-8);
 }
 
-TEST_CASE("factorisations kept over changing spaces lead to the same flow") {
+TEST_CASE("factorisations kept over changing spaces lead to the same flow", "[study]") {
   const Folder folder;
   REQUIRE(seam(run(folder, "fresh")).code == 0);
   REQUIRE(seam(run(folder, "kept", "--set solver.linear.keep=15")).code == 0);

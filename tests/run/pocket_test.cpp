@@ -129,7 +129,7 @@ TEST_CASE("a pocket of half a cell is no part of the fluid until it opens") {
   CHECK(volume[5] == 0);
 }
 
-TEST_CASE("a pocket of twenty cells is kept and solved for") {
+TEST_CASE("a pocket of twenty cells is kept and solved for", "[study]") {
   for (const double volume : dropped(notch(0.25, 0.2, "0", "0"))) CHECK(volume == 0);
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("a run continues on other numbers of ranks") {
   CHECK(difference(folder.read("parts/series.csv"), folder.read("whole/series.csv")) < 1e-8);
 }
 
-TEST_CASE("a run that is killed at any moment loses nothing but the last point") {
+TEST_CASE("a run that is killed at any moment loses nothing but the last point", "[study]") {
   const Folder folder;
   // A restart point at every step, so that many a kill strikes while one is written.
   const std::string often = " --set output.restart.every=1 ";

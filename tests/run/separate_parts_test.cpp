@@ -172,7 +172,8 @@ coupling:
 
 }  // namespace
 
-TEST_CASE("water rests on two levels beside a plate, exactly and only with parts that are told apart") {
+TEST_CASE("water rests on two levels beside a plate, exactly and only with parts that are told apart",
+          "[study]") {
   // In the second case the plate's right side lies on faces of cells.
   for (const auto& [at, rise] : {std::pair{1.0, 0.05}, std::pair{16.0 / 15 - 0.01, 0.0}, std::pair{0.9, 0.2}})
     for (const std::string cell : {"quadrilateral", "triangle"})
@@ -194,7 +195,7 @@ TEST_CASE("water rests on two levels beside a plate, exactly and only with parts
   CHECK(joined.at_end("water.kinetic_energy") > 1e-3);
 }
 
-TEST_CASE("two shear flows beside a plate do not mix") {
+TEST_CASE("two shear flows beside a plate do not mix", "[study]") {
   const std::string text = scene(R"(    boundary:
       - {on: y_min, velocity: [0, 0]}
       - {on: y_max, velocity: [-1, 0]}
@@ -225,7 +226,7 @@ TEST_CASE("two shear flows beside a plate do not mix") {
   CHECK(std::abs(joined.at_end("high") + 0.1) > 0.01);
 }
 
-TEST_CASE("two shear flows beside a plate in space do not mix") {
+TEST_CASE("two shear flows beside a plate in space do not mix", "[study]") {
   for (const std::string cell : {"hexahedron", "tetrahedron"})
     for (const int ranks : {1, 2}) {
       const Run r = run(shear_in_space("separate"), "--set meshes.tank.grid.cell=" + cell, ranks);
@@ -237,7 +238,7 @@ TEST_CASE("two shear flows beside a plate in space do not mix") {
   CHECK(std::abs(run(shear_in_space("joined")).at_end("high") + 0.1) > 0.01);
 }
 
-TEST_CASE("states follow the parts of the fluid when a plate moves through the mesh") {
+TEST_CASE("states follow the parts of the fluid when a plate moves through the mesh", "[study]") {
   for (const auto& [at, rise] :
        {std::pair{0.4, 0.06}, std::pair{0.4, 0.3}, std::pair{0.4, 0.0}, std::pair{0.4 - 0.01, 0.0}})
     for (const std::string cell : {"quadrilateral", "triangle"})
@@ -264,7 +265,7 @@ TEST_CASE("a plate that parts cells and moves more than half a cell in a step ma
   CHECK(r.at_end("left") == Approx(1.6).epsilon(1e-9));
 }
 
-TEST_CASE("a plate with free edges moves through the mesh in balance, on all numbers of ranks") {
+TEST_CASE("a plate with free edges moves through the mesh in balance, on all numbers of ranks", "[study]") {
   for (const double rise : {0.05, 0.0})
     for (const int order : {1, 2}) {
       const std::string more = fmt::format("--set fields.water.order={}", order);
