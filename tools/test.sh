@@ -9,7 +9,7 @@
 # scenes    every scene of configs/ against its own checks, but for those of the nightly tier
 # nightly   the scenes of the nightly tier: long runs, not part of `all`
 # install   plugins built out of tree against an installed Seam
-# sanitize  the fast tests with address and undefined behaviour sanitizers
+# sanitize  the fast tests but for the studies among them, with address and undefined behaviour sanitizers
 # fuzz      the readers of scenes and meshes, 60 s each
 # format    clang-format
 # tidy      clang-tidy on the files that changed

@@ -101,7 +101,7 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
   if (role_ == Role::sweep && !moves_now_) return;
   compute_operators();
   gather();
-  if (moves_now_) {
+  if (moves_now_ && role_ == Role::integrate) {
     compute_reference_motion();
     compute_partner_motion();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -120,6 +121,19 @@ class ElementEvaluator {
   void compute_input_change(const Compiled& term);
   /// Derivative of row i of a slot's shape functions with respect to reference coordinate j, [stride].
   [[nodiscard]] const double* shape_change(const Slot& slot, int part, int point, int j, int i) const;
+  /// One direction of one component of a slot's test functions at a point.
+  struct TestRow {
+    const Slot* slot;
+    int part;
+    std::size_t point;
+    int direction;
+    std::size_t output;   ///< its coefficient, in all points' outputs
+    const double* shape;  ///< [node]
+    int nodes;            ///< padded
+  };
+  template <class Add>
+  void add_moves(const Compiled& term, const Add& add);
+  void add_outer(const TestRow& row, const double* shape, const double* change);
   void add_motion_tangent(const Compiled& term);
   void add_sweep(const Compiled& term);
   void scatter_moves(int q, int row, int count, const double* rows);
@@ -140,7 +154,7 @@ class ElementEvaluator {
   bool moves_now_ = false;  ///< the element under work is differentiated with respect to its points' motion
   int moving_part_ = -1, moving_offset_ = 0;           ///< where the unknown that moves the points is
   std::vector<std::vector<double>> reference_motion_;  ///< [side][point][reference direction][move]
-  std::vector<double> input_change_, partner_motion_, swept_;
+  std::vector<double> input_change_, partner_motion_, moved_;
   std::vector<double> residual_, magnitude_, matrix_;
 };
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How integrals over a surface that moves with a body change with the body's nodes.
-#include <stdexcept>
-
 #include "seam/assembly/evaluator.hpp"
 
 namespace seam {
@@ -128,75 +126,69 @@ void ElementEvaluator::scatter_moves(int q, int row, int count, const double* ro
     }
 }
 
-/// d(weight r N) = (weight dr + r dweight) N + weight r dN.
-void ElementEvaluator::add_motion_tangent(const Compiled& term) {
-  const int moves = dim_ * dim_, columns = term.columns + moves;
-  const PointMotion& motion = *element_.motion;
+/// For all test functions of a term at all points: lets `add` fill the derivatives with respect to the
+/// point's moves, [node][move], direction by direction of the test function, and adds them to the matrix.
+template <class Add>
+void ElementEvaluator::add_moves(const Compiled& term, const Add& add) {
   int at = 0;
   for (const Slot& slot : term.signature->outputs) {
     const BoundOperand& operand = term.operands[slot.operand];
     const Part& part = parts_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.stride;
+    const int directions = rows(slot.shape, dim_), n = part.stride;
     const double* shape = operators_[operand.part].of(slot.shape);
-    for (int q = 0; q < element_.points; ++q) {
-      const auto here = static_cast<std::size_t>(q);
+    for (std::size_t q = 0; q < static_cast<std::size_t>(element_.points); ++q)
       for (int c = 0; c < operand.components; ++c) {
-        swept_.assign(static_cast<std::size_t>(n) * moves, 0.0);
-        for (int i = 0; i < r; ++i) {
-          const std::size_t out = here * term.outputs + at + c * r + i;
-          const double force = element_.weight[q] * point_residual_[out];
-          const double* row = shape + static_cast<std::ptrdiff_t>(here * r + i) * n;
-          double change[9];
-          for (int m = 0; m < moves; ++m)
-            change[m] = element_.weight[q] * point_tangent_[out * columns + term.columns + m] +
-                        force * motion.relative_weight[here * moves + m];
-          for (int a = 0; a < n; ++a)
-            for (int m = 0; m < moves; ++m) swept_[a * moves + m] += change[m] * row[a];
-          if (force == 0) continue;
-          for (int j = 0; j < dim_; ++j) {
-            const double* shape_slope = shape_change(slot, operand.part, q, j, i);
-            const double* speed = &reference_motion_[part.side][(here * dim_ + j) * moves];
-            for (int a = 0; a < n; ++a)
-              for (int m = 0; m < moves; ++m) swept_[a * moves + m] += force * shape_slope[a] * speed[m];
-          }
-        }
-        scatter_moves(q, part.offset + (operand.offset + c) * n, n, swept_.data());
+        moved_.assign(static_cast<std::size_t>(n) * dim_ * dim_, 0.0);
+        for (int i = 0; i < directions; ++i)
+          add(TestRow{&slot, operand.part, q, i, q * term.outputs + at + c * directions + i,
+                      shape + static_cast<std::ptrdiff_t>(q * directions + i) * n, n});
+        scatter_moves(static_cast<int>(q), part.offset + (operand.offset + c) * n, n, moved_.data());
       }
-    }
-    at += operand.components * r;
+    at += operand.components * directions;
   }
+}
+
+/// moved += shape change^T
+void ElementEvaluator::add_outer(const TestRow& row, const double* shape, const double* change) {
+  const int moves = dim_ * dim_;
+  for (int a = 0; a < row.nodes; ++a)
+    for (int m = 0; m < moves; ++m) moved_[static_cast<std::size_t>(a) * moves + m] += change[m] * shape[a];
+}
+
+/// d(weight r N) = (weight dr + r dweight) N + weight r dN.
+void ElementEvaluator::add_motion_tangent(const Compiled& term) {
+  const int moves = dim_ * dim_, columns = term.columns + moves;
+  add_moves(term, [&](const TestRow& row) {
+    const std::size_t q = row.point;
+    const double weight = element_.weight[q], force = weight * point_residual_[row.output];
+    double change[9];
+    for (int m = 0; m < moves; ++m)
+      change[m] = weight * point_tangent_[row.output * columns + term.columns + m] +
+                  force * element_.motion->relative_weight[q * moves + m];
+    add_outer(row, row.shape, change);
+    if (force == 0) return;
+    for (int j = 0; j < dim_; ++j) {
+      const double* speed = &reference_motion_[parts_[row.part].side][(q * dim_ + j) * moves];
+      for (int m = 0; m < moves; ++m) change[m] = force * speed[m];
+      add_outer(row, shape_change(*row.slot, row.part, static_cast<int>(q), j, row.direction), change);
+    }
+  });
 }
 
 /// An integral over a volume changes by its integrand on the moving surface times the surface's normal
 /// motion.
 void ElementEvaluator::add_sweep(const Compiled& term) {
   const int moves = dim_ * dim_;
-  int at = 0;
-  for (const Slot& slot : term.signature->outputs) {
-    const BoundOperand& operand = term.operands[slot.operand];
-    const Part& part = parts_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.stride;
-    const double* shape = operators_[operand.part].of(slot.shape);
-    for (int q = 0; q < element_.points; ++q) {
-      const auto here = static_cast<std::size_t>(q);
-      double speed[9] = {};
-      for (int i = 0; i < dim_; ++i)
-        for (int m = 0; m < moves; ++m)
-          speed[m] += element_.weight[q] * element_.normal[here * dim_ + i] *
-                      element_.motion->position[(here * dim_ + i) * moves + m];
-      for (int c = 0; c < operand.components; ++c) {
-        swept_.assign(static_cast<std::size_t>(n) * moves, 0.0);
-        for (int i = 0; i < r; ++i) {
-          const double force = point_residual_[here * term.outputs + at + c * r + i];
-          const double* row = shape + static_cast<std::ptrdiff_t>(here * r + i) * n;
-          for (int a = 0; a < n && force != 0; ++a)
-            for (int m = 0; m < moves; ++m) swept_[a * moves + m] += force * row[a] * speed[m];
-        }
-        scatter_moves(q, part.offset + (operand.offset + c) * n, n, swept_.data());
-      }
-    }
-    at += operand.components * r;
-  }
+  add_moves(term, [&](const TestRow& row) {
+    const double force = element_.weight[row.point] * point_residual_[row.output];
+    if (force == 0) return;
+    double change[9] = {};
+    for (int i = 0; i < dim_; ++i)
+      for (int m = 0; m < moves; ++m)
+        change[m] += force * element_.normal[row.point * dim_ + i] *
+                     element_.motion->position[(row.point * dim_ + i) * moves + m];
+    add_outer(row, row.shape, change);
+  });
 }
 
 }  // namespace seam

@@ -22,8 +22,7 @@ bool InteriorFaceDomain::belongs(const Mesh::InteriorFace& face) const {
   // Next to a whole cell the face is wet, at least in part.
   if (choice_ == Faces::ghost || !is_cut[0] || !is_cut[1]) return true;
   // Nothing else holds the unknowns of a cell that a body has covered.
-  for (const int cell : cells)
-    if (field_->cut()->state(cell) == CellState::body) return true;
+  if (field_->is_covered(cells[0]) || field_->is_covered(cells[1])) return true;
   static thread_local CutRule rule;
   field_->cut()->face_rule(cells[0], face.side[0].face, 1, rule);
   return rule.count() > 0;

@@ -12,23 +12,11 @@
 namespace seam {
 namespace {
 
-/// How the scene steps through time; as Simulation reads it.
-struct Stepping {
-  bool is_static = true;
-  double theta = 1, step = 1;
-  explicit Stepping(const Scene& scene) {
-    if (!scene.root.has("time")) return;
-    const Parameters& p = scene.root.object("time");
-    is_static = p.boolean("static");
-    theta = p.number("theta");
-    step = p.number("end") - p.number("start");
-    if (p.has("step")) step = std::min(step, p.object("step").number("initial"));
-  }
-  /// The step that follows a time, or a part of it.
-  [[nodiscard]] TimePoint after(double time, double part = 1) const {
-    return time_point(time + part * step, is_static ? 0 : part * step, theta);
-  }
-};
+/// A step from a time, part of the scene's first one long.
+TimePoint step_from(const Stepper& stepper, double time, double part = 1) {
+  const double length = part * stepper.initial();
+  return time_point(time + length, stepper.is_static() ? 0 : length, stepper.theta());
+}
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
@@ -76,7 +64,7 @@ RunOptions quiet_run(const std::filesystem::path& folder) {
 
 /// Takes a step, goes back, lets a longer one fail, goes back, and takes the first one again.
 ConformanceCheck check_rewind(const Scene& scene, const Registry& registry, Problem& problem, double time) {
-  const Stepping stepping(scene);
+  const Stepper stepper(scene);
   const auto linear =
       registry.create<LinearSolver>("linear_solver", scene.root.object("solver").object("linear"));
   NewtonOptions options;
@@ -85,7 +73,7 @@ ConformanceCheck check_rewind(const Scene& scene, const Registry& registry, Prob
   options.increment_tolerance = newton.number("increment_tolerance");
   const auto take = [&](double part, int iterations) {
     options.maximum_iterations = iterations;
-    const TimePoint at = stepping.after(time, part);
+    const TimePoint at = step_from(stepper, time, part);
     problem.begin_step(at);
     return Newton(problem, *linear, options).solve(at);
   };
@@ -162,7 +150,7 @@ std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& re
     else
       checks.push_back({"restart", ConformanceCheck::Outcome::skipped, "the scene takes one step only"});
     checks.push_back(check_rewind(scene, registry, half.problem(), time));
-    const auto tangents = check_tangents(half.problem(), Stepping(scene).after(time));
+    const auto tangents = check_tangents(half.problem(), step_from(Stepper(scene), time));
     checks.insert(checks.end(), tangents.begin(), tangents.end());
   } catch (const Error& error) {
     checks.push_back(conformance_check("runs", false, error.what()));

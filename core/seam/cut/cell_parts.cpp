@@ -6,7 +6,7 @@
 #include <limits>
 #include <map>
 
-#include "seam/cut/disjoint_sets.hpp"
+#include "seam/base/disjoint_sets.hpp"
 #include "seam/cut/fluid_leaves.hpp"
 #include "seam/cut/slivers.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
+#include "seam/base/disjoint_sets.hpp"
 #include "seam/cut/cut_mesh.hpp"
-#include "seam/cut/disjoint_sets.hpp"
 #include "seam/cut/geometry.hpp"
 #include "seam/cut/slivers.hpp"
 

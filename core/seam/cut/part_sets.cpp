@@ -6,8 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "seam/base/disjoint_sets.hpp"
 #include "seam/cut/cells_of_nodes.hpp"
-#include "seam/cut/disjoint_sets.hpp"
 
 namespace seam {
 namespace {

@@ -84,6 +84,10 @@ void Field::occupy(std::vector<char> cell_is_active, const CutMesh* cut) {
   }
 }
 
+bool Field::is_covered(int cell) const {
+  return cut_ && active_cells_[cell] && cut_->state(cell) == CellState::body;
+}
+
 bool Field::is_cut(int cell) const {
   return cut_ && active_cells_[cell] && cut_->state(cell) != CellState::fluid;
 }

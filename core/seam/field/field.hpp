@@ -112,6 +112,9 @@ class Field {
   /// True when this local cell is active and only partly occupied, or kept active though a body has covered
   /// it altogether.
   [[nodiscard]] bool is_cut(int cell) const;
+  /// True when this local cell is kept active though a body has covered it altogether: nothing is integrated
+  /// over it and nothing of it is shown.
+  [[nodiscard]] bool is_covered(int cell) const;
 
  private:
   static void resize(Block& block);

@@ -124,7 +124,8 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
   const CellTopology& cell = topology(mesh.type());
   std::vector<SampleDomain::Sample> cells;
   for (int c = 0; c < mesh.cells(); ++c)
-    for (int p = 0; p < entry.field->parts(c) && entry.field->active_cells()[c]; ++p) cells.push_back({c, p});
+    for (int p = 0; p < entry.field->parts(c) && entry.field->active_cells()[c]; ++p)
+      if (!entry.field->is_covered(c)) cells.push_back({c, p});
   const int per_cell = space.nodes_per_cell(), components = quantity.components;
   const std::vector<double> reference(
       cell.node_coordinates.begin(),

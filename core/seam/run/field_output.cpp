@@ -81,7 +81,8 @@ VtuPiece field_piece(const FieldEntry& entry, const Space& space, const TimePoin
   const Mesh& mesh = field.mesh();
   const ClippedCells clipped(field, space);
   std::vector<char> whole = field.active_cells();
-  for (const int c : field.cut()->cut_cells()) whole[c] = 0;
+  for (int c = 0; c < mesh.cells(); ++c)
+    if (field.is_cut(c)) whole[c] = 0;
   VtuPiece piece = piece_of(space, whole, &field);
   piece.points.insert(piece.points.end(), clipped.points.begin(), clipped.points.end());
   piece.simplices = clipped.simplices;

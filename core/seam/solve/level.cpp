@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <numeric>
 
+#include "seam/base/disjoint_sets.hpp"
 #include "seam/cut/cut_mesh.hpp"
 
 namespace seam {
@@ -34,23 +34,22 @@ class ConnectedNodes {
  private:
   /// Gives the nodes of each local component their lowest label.
   bool merge() {
-    std::vector<int> parent(space_.nodes());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int n) {
-      while (parent[n] != n) n = parent[n] = parent[parent[n]];
-      return n;
-    };
+    DisjointSets sets(space_.nodes());
     for (int c = 0; c < space_.mesh().cells(); ++c)
       for (int p = 0; p < field_.parts(c) && field_.active_cells()[c]; ++p) {
         const int* nodes = field_.cell_nodes(block_, c, p);
-        for (int a = 1; a < space_.nodes_per_cell(); ++a) parent[root(nodes[a])] = root(nodes[0]);
+        for (int a = 1; a < space_.nodes_per_cell(); ++a) sets.unite(nodes[a], nodes[0]);
       }
     std::vector<int> lowest(space_.nodes(), none);
-    for (int n = 0; n < space_.nodes(); ++n) lowest[root(n)] = std::min(lowest[root(n)], label_[n]);
+    for (int n = 0; n < space_.nodes(); ++n) {
+      int& least = lowest[sets.root(n)];
+      least = std::min(least, label_[n]);
+    }
     bool changed = false;
     for (int n = 0; n < space_.nodes(); ++n) {
-      changed = changed || label_[n] != lowest[root(n)];
-      label_[n] = lowest[root(n)];
+      const int least = lowest[sets.root(n)];
+      changed = changed || label_[n] != least;
+      label_[n] = least;
     }
     return changed;
   }
