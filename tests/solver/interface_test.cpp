@@ -138,6 +138,35 @@ TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
   check_exact(*problem);
 }
 
+TEST_CASE("a kept preconditioner serves a matrix that was built anew with the same pattern") {
+  constexpr int n = 50;
+  Matrix a;
+  const auto fill = [&](double scale) {  // scale * tridiagonal(-1, 2.5, -1)
+    a.allocate(n, 3 * n - 2, 3 * n - 2);
+    std::size_t k = 0;
+    for (int r = 0; r < n; ++r) {
+      for (int c = std::max(0, r - 1); c < std::min(n, r + 2); ++c) {
+        a.column[k] = c;
+        a.value[k++] = scale * (c == r ? 2.5 : -1.0);
+      }
+      a.row_start[r + 1] = k;
+    }
+  };
+  a.global_rows = n;
+  for (int r = 0; r < n; ++r) a.column_global.push_back(r);
+  EquationBlock block;
+  block.count = n;
+  KrylovSolver solver(krylov("ilu"));
+  const std::vector<double> b(n, 1.0);
+  std::vector<double> x, y;
+  fill(1);
+  solver.solve(a, {block}, b, x);
+  fill(2);
+  const SolveReport report = solver.solve(a, {block}, b, y);
+  CHECK_FALSE(report.new_factorisation);
+  for (int r = 0; r < n; ++r) CHECK(y[r] == Approx(x[r] / 2).epsilon(1e-9));
+}
+
 TEST_CASE("faces without a partner are named") {
   auto problem = std::make_unique<Problem>(Communicator());
   std::vector<Field*> sides{&problem->add_field("left", half(CellType::quadrilateral, 0, 1, 5),

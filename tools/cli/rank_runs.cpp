@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "program.hpp"
+#include "seam/base/program.hpp"
 #include "seam/conformance/scene_checks.hpp"
 
 namespace seam::cli {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "program.hpp"
+#include "seam/base/program.hpp"
 #include "run.hpp"
 #include "seam/output/atomic_file.hpp"
 #include "session.hpp"

@@ -13,7 +13,7 @@
 #include <thread>
 
 #include "command.hpp"
-#include "program.hpp"
+#include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
 #include "study_report.hpp"
 

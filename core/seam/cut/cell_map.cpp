@@ -66,6 +66,28 @@ Vector CellMap::to_space(const Vector& reference) const {
   return position;
 }
 
+CellMap CellMap::linearised() const {
+  if (affine_) return *this;
+  static thread_local ShapeTable shapes;
+  const int dim = mesh_->dimension();
+  const double* x = mesh_->geometry(cell_);
+  const std::vector<double> middle(3, topology(mesh_->type()).vertices == dim + 1 ? 1.0 / (dim + 1) : 0.5);
+  tabulate(mesh_->type(), mesh_->order(), middle.data(), 1, false, shapes);
+  CellMap result = *this;
+  result.affine_ = true;
+  for (int i = 0; i < dim; ++i) {
+    result.origin_[i] = 0;
+    for (int a = 0; a < shapes.nodes; ++a) result.origin_[i] += shapes.value[a] * x[a * dim + i];
+    for (int d = 0; d < dim; ++d) {
+      double& slope = result.column_[d][i] = 0;
+      for (int a = 0; a < shapes.nodes; ++a) slope += shapes.gradient[d * shapes.stride + a] * x[a * dim + i];
+      result.origin_[i] -= middle[d] * slope;
+    }
+  }
+  result.determinant_ = invert(result.column_, result.inverse_);
+  return result;
+}
+
 Vector CellMap::newton(const Vector& position, Vector guess) const {
   static thread_local ShapeTable shapes;
   const int dim = mesh_->dimension();

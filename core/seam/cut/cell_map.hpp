@@ -13,6 +13,9 @@ class CellMap {
   CellMap(const Mesh& mesh, int cell);
 
   [[nodiscard]] bool affine() const { return affine_; }
+  /// The affine map with the same position and derivatives in the middle of the cell; this one if it is
+  /// affine.
+  [[nodiscard]] CellMap linearised() const;
   /// Volume of an affine cell's unit square or cube of reference coordinates.
   [[nodiscard]] double determinant() const { return determinant_; }
   [[nodiscard]] Vector to_space(const Vector& reference) const;

@@ -43,10 +43,13 @@ Vector at(const Quadrature& rule, int q, const std::array<Vector, 3>& corner, co
   return x;
 }
 
-/// The divergence theorem with the integral of the last coordinate's polynomial: parts of the boundary that
-/// are parallel to that coordinate, or lie where it is 0, add nothing.
-void affine_moments(int dimension, const CellMap& map, const CutCell& cell, int degree,
+}  // namespace
+
+void volume_moments(int dimension, const CellMap& map, const CutCell& cell, int degree,
                     std::vector<double>& moment) {
+  moment.assign(product_count(dimension, degree), 0.0);
+  // The divergence theorem with the integral of the last coordinate's polynomial: parts of the boundary that
+  // are parallel to that coordinate, or lie where it is 0, add nothing.
   const int last = dimension - 1;
   const Quadrature& rule = simplex_rule(last, dimension * degree + 1);
   std::array<Values, 3> value{};
@@ -63,35 +66,6 @@ void affine_moments(int dimension, const CellMap& map, const CutCell& cell, int 
       add_product(dimension, degree + 1, sign * normal * rule.weights[q] * map.determinant(), value, moment);
     }
   });
-}
-
-void mapped_moments(int dimension, const CellMap& map, const CutCell& cell, const Vector& centre, int degree,
-                    std::vector<double>& moment) {
-  // The polynomials of reference coordinates are none in space: beyond their own degree, the rule pays for
-  // the curvature of the map.
-  const Quadrature& rule = simplex_rule(dimension, std::min(30, dimension * degree + 4));
-  std::array<Values, 3> value{};
-  visit_boundary(dimension, cell, [&](const std::array<Vector, 3>& corner, double sign) {
-    const Vector a = corner[0] - centre, b = corner[1] - centre;
-    const double volume = dimension == 2 ? a[0] * b[1] - a[1] * b[0] : dot(cross(a, b), corner[2] - centre);
-    if (volume == 0) return;
-    for (int q = 0; q < rule.count(); ++q) {
-      const Vector p = map.to_reference(at(rule, q, corner, centre));
-      for (int d = 0; d < dimension; ++d) legendre(degree, p[d], value[d].data());
-      add_product(dimension, degree + 1, sign * volume * rule.weights[q], value, moment);
-    }
-  });
-}
-
-}  // namespace
-
-void volume_moments(int dimension, const CellMap& map, const CutCell& cell, const Vector& centre, int degree,
-                    std::vector<double>& moment) {
-  moment.assign(product_count(dimension, degree), 0.0);
-  if (map.affine())
-    affine_moments(dimension, map, cell, degree, moment);
-  else
-    mapped_moments(dimension, map, cell, centre, degree, moment);
 }
 
 void face_moments(int dimension, const CellMap& map, const CutCell& cell, int face, const Vector& face_origin,

@@ -8,11 +8,11 @@
 
 namespace seam::cutting {
 
-/// Integrals over the fluid part of a cell, in m^d, of products of Legendre polynomials of its reference
-/// coordinates up to `degree` in each. Affine cells: by the divergence theorem, exact. Others: by signed
-/// simplices between the boundary and the cell's centre; the polynomial 1 is exact.
+/// Integrals over the fluid part of a cell, in m^d, of products of Legendre polynomials of the coordinates of
+/// an affine map up to `degree` in each: by the divergence theorem, exact.
+/// @param map the cell's, or its linearised one
 /// @param moment [k0 + n (k1 + n k2)], n = degree + 1
-void volume_moments(int dimension, const CellMap& map, const CutCell& cell, const Vector& centre, int degree,
+void volume_moments(int dimension, const CellMap& map, const CutCell& cell, int degree,
                     std::vector<double>& moment);
 
 /// The same over the fluid part of a face, in m^(d-1), in the face's reference coordinates.

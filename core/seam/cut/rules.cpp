@@ -65,8 +65,17 @@ void CutMesh::volume_rule(int cell, int degree, CutRule& rule, int part) const {
   const int dim = mesh_->dimension();
   const CellMap map(*mesh_, cell);
   const FittedRule& fitted = FittedRule::get(dim, degree);
-  volume_moments(dim, map, geometry_->at(cell, part), geometry_->outline.centre(cell), degree, moment);
+  // Of a cell that is not affine polynomials in space are integrated: its own have no exact integrals.
+  const CellMap frame = map.linearised();
+  volume_moments(dim, frame, geometry_->at(cell, part), degree, moment);
   rule.reference = fitted.points();
+  if (!map.affine())
+    for (auto p = rule.reference.begin(); p != rule.reference.end(); p += dim) {
+      Vector point{};
+      std::copy_n(p, dim, point.begin());
+      point = map.to_reference(frame.to_space(point));
+      std::copy_n(point.begin(), dim, p);
+    }
   rule.weight.resize(fitted.count());
   fitted.weights(moment.data(), rule.weight.data());
 }

@@ -7,51 +7,6 @@
 namespace seam {
 namespace {
 
-/// Solves the blocks one after the other, each with the residual that the ones before have left.
-class BlockGaussSeidel final : public TpetraOperator {
- public:
-  struct Part {
-    int first, count;
-    Teuchos::RCP<const TpetraMap> map;
-    Teuchos::RCP<TpetraOperator> inverse;
-  };
-  BlockGaussSeidel(Teuchos::RCP<TpetraMatrix> system, std::vector<Part> parts)
-      : system_(std::move(system)), parts_(std::move(parts)) {}
-
-  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override {
-    return system_->getDomainMap();
-  }
-  [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return system_->getRangeMap(); }
-  void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
-             double beta) const override {
-    TpetraVector solution(getDomainMap(), x.getNumVectors()), residual(x, Teuchos::Copy);
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      const Part& part = parts_[p];
-      if (p > 0) {
-        Tpetra::deep_copy(residual, x);
-        system_->apply(solution, residual, Teuchos::NO_TRANS, -1.0, 1.0);
-      }
-      TpetraVector in(part.map, x.getNumVectors()), out(part.map, x.getNumVectors());
-      for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
-        const auto from = residual.getData(v);
-        auto to = in.getDataNonConst(v);
-        std::copy_n(from.begin() + part.first, part.count, to.begin());
-      }
-      part.inverse->apply(in, out);
-      for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
-        const auto from = out.getData(v);
-        auto to = solution.getDataNonConst(v);
-        std::copy_n(from.begin(), part.count, to.begin() + part.first);
-      }
-    }
-    y.update(alpha, solution, beta);
-  }
-
- private:
-  Teuchos::RCP<TpetraMatrix> system_;
-  std::vector<Part> parts_;
-};
-
 /// The diagonal block of rows and columns [first, first + count) of every rank.
 Teuchos::RCP<TpetraMatrix> diagonal_block(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
                                           const EquationBlock& block) {
@@ -107,21 +62,42 @@ Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>
   return result;
 }
 
-Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
-                                                     const Matrix& a,
-                                                     const std::vector<EquationBlock>& blocks, bool multigrid,
-                                                     int fill) {
-  std::vector<BlockGaussSeidel::Part> parts;
+BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
+                                   const std::vector<EquationBlock>& blocks, bool multigrid, int fill)
+    : system_(system) {
   for (const EquationBlock& block : blocks) {
     const auto matrix = blocks.size() == 1 ? system : diagonal_block(system, a, block);
     // Small blocks (a rigid body's motion) and mixed ones are left to the factorisation.
     const bool coarsen = multigrid && matrix->getGlobalNumRows() > 2000 &&
                          (block.unknowns_per_node == block.dimension || block.unknowns_per_node == 1);
-    parts.push_back({block.first, block.count, matrix->getRowMap(),
-                     coarsen ? make_multigrid(matrix, block) : make_incomplete_lu(matrix, fill)});
+    parts_.push_back({block.first, block.count, matrix->getRowMap(),
+                      coarsen ? make_multigrid(matrix, block) : make_incomplete_lu(matrix, fill)});
   }
-  if (parts.size() == 1) return parts[0].inverse;
-  return Teuchos::rcp(new BlockGaussSeidel(system, std::move(parts)));
+}
+
+void BlockGaussSeidel::apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
+                             double beta) const {
+  TpetraVector solution(getDomainMap(), x.getNumVectors()), residual(x, Teuchos::Copy);
+  for (std::size_t p = 0; p < parts_.size(); ++p) {
+    const Part& part = parts_[p];
+    if (p > 0) {
+      Tpetra::deep_copy(residual, x);
+      system_->apply(solution, residual, Teuchos::NO_TRANS, -1.0, 1.0);
+    }
+    TpetraVector in(part.map, x.getNumVectors()), out(part.map, x.getNumVectors());
+    for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
+      const auto from = residual.getData(v);
+      auto to = in.getDataNonConst(v);
+      std::copy_n(from.begin() + part.first, part.count, to.begin());
+    }
+    part.inverse->apply(in, out);
+    for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
+      const auto from = out.getData(v);
+      auto to = solution.getDataNonConst(v);
+      std::copy_n(from.begin(), part.count, to.begin() + part.first);
+    }
+  }
+  y.update(alpha, solution, beta);
 }
 
 }  // namespace seam

@@ -10,9 +10,8 @@
 namespace seam {
 
 struct KrylovSolver::Preconditioner {
-  Teuchos::RCP<TpetraMatrix> matrix;
-  Teuchos::RCP<TpetraOperator> apply;
-  long long pattern_version = -1;
+  Teuchos::RCP<BlockGaussSeidel> apply;
+  long long pattern_version;
   int first_iterations = 0;  ///< of the solve right after it was built
   int last_iterations = 0;
 };
@@ -59,16 +58,19 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
                               const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
   const Stopwatch watch;
   report.new_factorisation = !worth_keeping(a);
+  // A view of its own for every solve: the same pattern may have been built anew, in other memory.
+  const auto matrix = tpetra_view(a);
   if (report.new_factorisation) {
-    preconditioner_ = std::make_unique<Preconditioner>();
-    preconditioner_->matrix = tpetra_view(a);
-    preconditioner_->apply = make_block_gauss_seidel(preconditioner_->matrix, a, blocks, multigrid_, fill_);
-    preconditioner_->pattern_version = a.pattern_version;
+    preconditioner_.reset();  // two of them need never be in memory together
+    auto inverse = Teuchos::rcp(new BlockGaussSeidel(matrix, a, blocks, multigrid_, fill_));
+    preconditioner_ = std::make_unique<Preconditioner>(Preconditioner{inverse, a.pattern_version});
+  } else {
+    preconditioner_->apply->follow(matrix);
   }
   report.setup_seconds = watch.seconds();
 
-  report.iterations = gmres(preconditioner_->matrix, preconditioner_->apply, b, x,
-                            {tolerance_, maximum_iterations_, restart_});
+  report.iterations =
+      gmres(matrix, preconditioner_->apply, b, x, {tolerance_, maximum_iterations_, restart_});
   preconditioner_->last_iterations = report.iterations;
   if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);
 }

@@ -13,10 +13,32 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
 /// @param fill levels of fill-in
 Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix, int fill);
 
-/// Forward block Gauss-Seidel over the blocks of a system.
-Teuchos::RCP<TpetraOperator> make_block_gauss_seidel(const Teuchos::RCP<TpetraMatrix>& system,
-                                                     const Matrix& a,
-                                                     const std::vector<EquationBlock>& blocks, bool multigrid,
-                                                     int fill);
+/// Solves the blocks of a system one after the other, each with the residual that the ones before have left:
+/// forward block Gauss-Seidel. Blocks of one unknown a node, or of a displacement, are left to multigrid,
+/// others to an incomplete factorisation.
+class BlockGaussSeidel final : public TpetraOperator {
+ public:
+  /// @param system a view of `a`
+  /// @param fill levels of fill-in of incomplete factorisations
+  BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
+                   const std::vector<EquationBlock>& blocks, bool multigrid, int fill);
+  /// From now on residuals are those of another matrix with the same unknowns; the blocks' inverses stay.
+  void follow(const Teuchos::RCP<TpetraMatrix>& system) { system_ = system; }
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override {
+    return system_->getDomainMap();
+  }
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return system_->getRangeMap(); }
+  void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
+             double beta) const override;
+
+ private:
+  struct Part {
+    int first, count;
+    Teuchos::RCP<const TpetraMap> map;
+    Teuchos::RCP<TpetraOperator> inverse;
+  };
+  Teuchos::RCP<TpetraMatrix> system_;
+  std::vector<Part> parts_;
+};
 
 }  // namespace seam

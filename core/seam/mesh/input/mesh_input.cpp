@@ -67,14 +67,21 @@ MeshData read_file(const Parameters& p) {
   const std::string& path = p.text("file");
   const std::string extension = std::filesystem::path(path).extension().string();
   MeshData mesh;
+  std::map<std::string, double> numbers;
+  if (p.has("numbers"))
+    for (const auto& [name, entry] : p.map("numbers")) numbers[name] = entry.number("value");
+  if (!numbers.empty() && extension != ".geo")
+    throw Error(p.where("numbers"), "only a geometry (.geo) has numbers that can be set");
   if (extension == ".msh")
     mesh = read_gmsh(path);
+  else if (extension == ".geo")
+    mesh = mesh_geometry(path, numbers, p.dimension());
   else if (extension == ".vtu")
     mesh = read_vtu(path);
   else
     throw Error(p.where("file"),
                 fmt::format("cannot tell the format of mesh file '{}'; expected a name that ends in "
-                            ".msh (Gmsh) or .vtu (VTK)",
+                            ".msh or .geo (Gmsh) or .vtu (VTK)",
                             path));
   if (mesh.dimension != p.dimension())
     throw Error(p.where("file"),
@@ -93,9 +100,18 @@ Schema mesh_schema() {
   Schema region("Cells picked by their place.");
   region.expression("where", "picks the cells at whose midpoint it is not 0");
 
+  Schema number("A number of a geometry.");
+  number.number("value", "takes the place of the geometry's own");
+
   Schema schema("A mesh: a generated grid or a file.");
   schema.object("grid", "a generated box", grid_schema()).optional();
-  schema.file("file", "mesh file: Gmsh (.msh, format 2.2 or 4.1, ASCII) or VTK (.vtu)").optional();
+  schema
+      .file("file",
+            "mesh file: Gmsh (.msh, format 2.2 or 4.1, ASCII; .geo, which the program gmsh meshes) or VTK "
+            "(.vtu)")
+      .optional();
+  schema.value_map("numbers", "numbers of the .geo file, declared there by DefineConstant", std::move(number))
+      .optional();
   schema.map("boundaries", "further named boundaries", std::move(boundary)).optional();
   schema.map("regions", "further named sets of cells", std::move(region)).optional();
   return schema;

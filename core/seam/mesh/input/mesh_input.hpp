@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <string>
 
 #include "seam/mesh/mesh_data.hpp"
@@ -9,7 +10,8 @@
 
 namespace seam {
 
-/// Keys of one entry of a scene's `meshes`: either `grid` (a generated box) or `file` (Gmsh .msh or .vtu).
+/// Keys of one entry of a scene's `meshes`: either `grid` (a generated box) or `file` (Gmsh .msh or
+/// .geo, or .vtu).
 Schema mesh_schema();
 
 /// Reads or generates a mesh and validates it (see validate_mesh).
@@ -28,6 +30,11 @@ void validate_mesh(const MeshData& mesh, const std::string& origin);
 MeshData read_gmsh(const std::string& path);
 /// The same from memory; `name` is used in messages. Entry point of the fuzz target.
 MeshData read_gmsh_text(const std::string& text, const std::string& name);
+
+/// The mesh that the program gmsh makes of a geometry (.geo). Such files are programs: use those you trust.
+/// @param numbers values for names that the geometry declares by DefineConstant
+/// @throws Error with what gmsh says, or when it is not there
+MeshData mesh_geometry(const std::string& path, const std::map<std::string, double>& numbers, int dimension);
 
 /// VTU, in any encoding VTK writes (see parse_vtu). Cell array "region" (integer or string) makes regions;
 /// outer faces make the boundary "outer".

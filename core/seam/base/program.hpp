@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace seam::cli {
+namespace seam {
 
 /// Runs a program (found by PATH when its name has no '/') and waits for it.
 /// @param output file that gets what it prints, both streams; empty: as this process prints
@@ -18,4 +18,4 @@ std::string program_output(const std::vector<std::string>& arguments);
 /// The file of this process.
 std::filesystem::path own_executable();
 
-}  // namespace seam::cli
+}  // namespace seam

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "program.hpp"
+#include "seam/base/program.hpp"
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-namespace seam::cli {
+namespace seam {
 namespace {
 
 /// The exit code of a child, once it has ended.
@@ -64,4 +64,4 @@ std::string program_output(const std::vector<std::string>& arguments) {
 
 std::filesystem::path own_executable() { return std::filesystem::read_symlink("/proc/self/exe"); }
 
-}  // namespace seam::cli
+}  // namespace seam
