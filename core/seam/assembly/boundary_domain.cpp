@@ -25,12 +25,12 @@ void BoundaryDomain::update(const Field& field) {
     for (int p = 0; p < field.parts(face.cell); ++p) {
       field.cut()->face_rule(face.cell, face.face, degree_, rule, p);
       if (rule.count() == 0) continue;
-      CutTables& part = cut_.emplace_back();
+      CutPoints& part = cut_.emplace_back();
       part.cell = face.cell;
       part.part = p;
       part.face = face.face;
       part.weight = rule.weight;
-      part.fill(field, rule.reference, true);
+      part.reference = rule.reference;
     }
   }
 }
@@ -41,12 +41,12 @@ void BoundaryDomain::fill(int index, Element& element) const {
   element.dimension = mesh.dimension();
   element.sides.resize(1);
   ElementSide& side = element.sides[0];
-  const CutTables* part = index < whole ? nullptr : &cut_[index - whole];
+  const CutPoints* part = index < whole ? nullptr : &cut_[index - whole];
   const CellFace face = part ? CellFace{part->cell, part->face} : whole_[index];
   attach_cell(side, *field_, face.cell, part ? part->part : 0);
   side.face = face.face;
   if (part)
-    part->attach(side);
+    part->attach(side, true);
   else
     tables_.attach(side);
   element.points = part ? static_cast<int>(part->weight.size()) : tables_.rule().count();

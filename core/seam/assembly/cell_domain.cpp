@@ -13,15 +13,16 @@ bool uses_order(const Field& field, int order) {
   return false;
 }
 
-void CutTables::fill(const Field& field, const std::vector<double>& reference, bool with_hessian) {
-  for (int order = 1; order <= 2; ++order)
-    if (uses_order(field, order))
-      tabulate(field.mesh().type(), order, reference.data(), static_cast<int>(weight.size()), with_hessian,
-               table[order - 1]);
-}
-
-void CutTables::attach(ElementSide& side) const {
-  for (int o = 0; o < 2; ++o) side.table[o] = table[o].points > 0 ? &table[o] : nullptr;
+void CutPoints::attach(ElementSide& side, bool with_hessian) const {
+  for (int order = 1; order <= 2; ++order) {
+    std::unique_ptr<ShapeTable>& table = side.own_table[order - 1];
+    side.table[order - 1] = nullptr;
+    if (!uses_order(*side.field, order)) continue;
+    if (!table) table = std::make_unique<ShapeTable>();
+    tabulate(side.field->mesh().type(), order, reference.data(), static_cast<int>(weight.size()),
+             with_hessian, *table);
+    side.table[order - 1] = table.get();
+  }
 }
 
 CellDomain::CellDomain(Field& field, int degree, Cells cells)
@@ -45,11 +46,11 @@ void CellDomain::update(const Field& field) {
       for (int p = 0; p < field.parts(c); ++p) {
         field.cut()->volume_rule(c, degree_, rule, p);
         if (rule.count() == 0) continue;
-        CutTables& part = cut_.emplace_back();
+        CutPoints& part = cut_.emplace_back();
         part.cell = c;
         part.part = p;
         part.weight = rule.weight;
-        part.fill(field, rule.reference, false);
+        part.reference = rule.reference;
       }
     }
   }
@@ -68,10 +69,10 @@ void CellDomain::fill(int index, Element& element) const {
     element.weight.resize(element.points);
     for (int q = 0; q < element.points; ++q) element.weight[q] = rule_->weights[q] * side.determinant[q];
   } else {
-    const CutTables& part = cut_[index - whole];
+    const CutPoints& part = cut_[index - whole];
     element.points = static_cast<int>(part.weight.size());
     attach_cell(side, *field_, part.cell, part.part);
-    part.attach(side);
+    part.attach(side, false);
     side.map_geometry();
     element.weight = part.weight;
   }

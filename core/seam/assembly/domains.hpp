@@ -9,16 +9,16 @@
 
 namespace seam {
 
-/// Shape functions at the points of one part of a cut cell, one table per order of the field's spaces.
-struct CutTables {
+/// The quadrature points of one part of a cut cell, or of its boundary.
+struct CutPoints {
   int cell = -1;
-  int part = 0;                ///< of the cell, where it has several (Field::parts)
-  int face = -1;               ///< local face, for parts of the boundary
-  std::vector<double> weight;  ///< [point], physical
-  ShapeTable table[2];
-  /// @param reference [point][dimension]
-  void fill(const Field& field, const std::vector<double>& reference, bool with_hessian);
-  void attach(ElementSide& side) const;
+  int part = 0;                   ///< of the cell, where it has several (Field::parts)
+  int face = -1;                  ///< local face, for parts of the boundary
+  std::vector<double> weight;     ///< [point], physical
+  std::vector<double> reference;  ///< [point][dimension]
+  /// Tabulates the shape functions of the side's field there: kept for all cut cells they would take more
+  /// memory than everything else.
+  void attach(ElementSide& side, bool with_hessian) const;
 };
 
 /// The owned active cells of a field: whole ones share one quadrature, cut ones have their own.
@@ -39,7 +39,7 @@ class CellDomain final : public IntegrationDomain {
   int degree_;
   Cells cells_;
   std::vector<int> whole_;
-  std::vector<CutTables> cut_;  ///< numbered after the whole ones
+  std::vector<CutPoints> cut_;  ///< numbered after the whole ones
   const Quadrature* rule_;
   ShapeTable tables_[2];
 };
@@ -84,7 +84,7 @@ class BoundaryDomain final : public IntegrationDomain {
   std::string boundary_;
   int degree_;
   std::vector<CellFace> whole_;
-  std::vector<CutTables> cut_;  ///< numbered after the whole ones
+  std::vector<CutPoints> cut_;  ///< numbered after the whole ones
   FaceTables tables_;
 };
 

@@ -24,6 +24,8 @@ struct ElementSide {
   std::vector<const int*> nodes;
   /// Shape tables at the points, per order (index order - 1); null where no space uses that order.
   const ShapeTable* table[2] = {nullptr, nullptr};
+  /// Those that are tabulated for this element alone.
+  std::unique_ptr<ShapeTable> own_table[2];
 
   // Filled by map_geometry:
   std::vector<double> position;          ///< [point][dimension]

@@ -41,16 +41,14 @@ void CutBoundary::add_pieces(int cell, int part, const InterfaceRule& rule, cons
     piece.part = part;
     piece.group = group;
     piece.trace_size = cut_->trace_size(cell);
-    std::vector<double> reference;
     for (const int q : of_group) {
       piece.weight.push_back(rule.weight[q]);
       const std::size_t at = static_cast<std::size_t>(q) * dim;
       for (std::size_t d = 0; d < dim; ++d) {
-        reference.push_back(rule.reference[at + d]);
+        piece.reference.push_back(rule.reference[at + d]);
         piece.normal.push_back(rule.normal[at + d]);
       }
     }
-    piece.fill(*field_, reference, true);
     add_partner(piece, rule, motion, of_group);
   }
 }
@@ -59,10 +57,10 @@ void CutBoundary::fill(int index, Element& element) const {
   const Piece& piece = pieces_[index];
   element.dimension = field_->mesh().dimension();
   element.points = static_cast<int>(piece.weight.size());
-  element.sides.resize(1);
+  if (element.sides.empty()) element.sides.resize(1);
   ElementSide& side = element.sides[0];
   attach_cell(side, *field_, piece.cell, piece.part);
-  piece.attach(side);
+  piece.attach(side, true);
   side.map_geometry();
   element.weight = piece.weight;
   element.normal = piece.normal;

@@ -26,10 +26,10 @@ class CutBoundary : public IntegrationDomain {
 
  protected:
   /// All points in one cell that share a group.
-  struct Piece : CutTables {
+  struct Piece : CutPoints {
     int group = 0;
     std::vector<double> normal;  ///< [point][dimension], out of the field
-    CutTables partner;           ///< of side 1
+    CutPoints partner;           ///< of side 1
     double trace_size = 0;
     PointMotion motion;  ///< where mover() says so
   };

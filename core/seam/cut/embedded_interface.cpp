@@ -144,10 +144,10 @@ class EmbeddedBoundary final : public CutBoundary {
     return {CutBoundary::fields().front(), &surface_->body()};
   }
   void fill(int index, Element& element) const override {
-    CutBoundary::fill(index, element);
     element.sides.resize(2);
+    CutBoundary::fill(index, element);
     surface_->cell(piece(index).group).attach(element.sides[1], surface_->body());
-    piece(index).partner.attach(element.sides[1]);
+    piece(index).partner.attach(element.sides[1], true);
     element.sides[1].map_geometry();
     element.constants.resize(constants_.count());
     for (int k = 0; k < constants_.count(); ++k) {
@@ -170,12 +170,11 @@ class EmbeddedBoundary final : public CutBoundary {
   void add_partner(Piece& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
                    const std::vector<int>& points) const override {
     const auto dim = static_cast<std::size_t>(surface_->body().mesh().dimension()), moves = dim * dim;
-    std::vector<double> reference;
     PointMotion& moving = piece.motion;
     for (const int q : points) {
       const int facet = rule.facet[q];
       const auto at = static_cast<std::size_t>(q);
-      surface_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], reference);
+      surface_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], piece.partner.reference);
       surface_->motion_to_cell(facet, &motion.facet_reference[at * (dim - 1) * moves], moving.reference);
       const int* places = surface_->places(facet);
       moving.node.insert(moving.node.end(), places, places + dim);
@@ -187,7 +186,6 @@ class EmbeddedBoundary final : public CutBoundary {
       copy(motion.relative_weight, moves, moving.relative_weight);
     }
     piece.partner.weight = piece.weight;
-    piece.partner.fill(surface_->body(), reference, true);
   }
   std::shared_ptr<const BodySurface> surface_;
   mutable CellConstants constants_;  ///< computed when they are asked for
