@@ -78,8 +78,12 @@ double statistic(const Parameters& p, const Results& results) {
 void record_formulas(const Scene& scene, Results& results) {
   for (const auto& [name, p] : scene.root.object("output").map("formulas")) {
     std::map<std::string, double> known = scene.parameters;
-    for (const auto& [series, values] : results.series)
-      if (!values.empty()) known[series] = values.back();
+    known["t"] = results.time.back();
+    for (const auto& [series, values] : results.series) {
+      std::string spelled = series;
+      std::replace(spelled.begin(), spelled.end(), '.', '_');
+      if (!values.empty()) known[spelled] = values.back();
+    }
     try {
       results.series[name].push_back(evaluate_constant(p.text("value"), known));
     } catch (const Error& error) {

@@ -145,10 +145,6 @@ void compile(mu::Parser& parser, const std::string& text, const std::map<std::st
   const std::string plain = without_braces(text);
   check_characters(text, plain);
   try {
-    // Series such as water.volume.
-    const auto dotted = [](const auto& entry) { return entry.first.find('.') != std::string::npos; };
-    if (std::any_of(parameters.begin(), parameters.end(), dotted))
-      parser.DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.");
     parser.DefineConst("pi", std::numbers::pi);
     for (const auto& [name, value] : parameters) parser.DefineConst(name, value);
     for (std::size_t i = 0; variables && i < variable_names.size(); ++i) {

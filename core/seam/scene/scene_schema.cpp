@@ -103,7 +103,8 @@ Schema probe_schema() {
 Schema formula_schema() {
   Schema schema("A number computed from others at every step.");
   schema.text("value",
-              "formula of the series (probes, balances such as water.kinetic_energy) and of the parameters");
+              "formula of what is recorded (with _ for the dots in its names: cylinder_volume), of the "
+              "parameters and of the time t");
   return schema;
 }
 

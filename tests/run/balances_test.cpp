@@ -20,7 +20,7 @@ TEST_CASE("formulas use balances by name; statistics say what a series does over
       "time: {static: true, end: 0.9, step: {initial: 0.1}}\n"
       "output:\n  fields: false\n"
       "  probes: {end: {field: block, at: [1, 0.5], quantity: displacement, component: x}}\n"
-      "  formulas: {both: 2.5*block.strain_energy + end}\n"
+      "  formulas: {both: 2.5*block_strain_energy + end}\n"
       "  statistics:\n    rise: {of: end, what: rise}\n    late_rise: {of: end, what: rise, from: 0.5}\n"
       "    integral: {of: end, what: integral}\n    mean: {of: end, what: mean, from: 0.5}\n");
   const Result run = seam("run " + file + " --quiet --folder " + (folder.path / "r").string());
