@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs Seam into a folder of its own, builds the plugin template against that installation only, and runs its tests
-# (its scenes, and the conformance kit).
+# Installs Seam into a folder of its own, builds plugins against that installation only, and runs their tests (their
+# scenes, and the conformance kit): the template, and a coupling of Seam's own fluid and solid.
 # Usage: out_of_tree.sh <source folder> <build folder>
 set -eu
 source=$1
@@ -15,33 +15,40 @@ fail() {
 }
 
 cmake --install "$build" --prefix "$work/seam" >/dev/null
-# A copy, so that nothing is found by its place in the source tree.
-cp -r "$source/tools/template" "$work/template"
 # Paths stay absolute, whatever a compiler cache is told elsewhere: they are looked at below.
 export CCACHE_BASEDIR=
 launcher=
 if command -v ccache >/dev/null; then launcher=-DCMAKE_CXX_COMPILER_LAUNCHER=ccache; fi
-cmake -S "$work/template" -B "$work/build" -G Ninja -DCMAKE_PREFIX_PATH="$work/seam" $launcher \
-  -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wshadow -Werror"
-cmake --build "$work/build"
 
-# Headers that the plugin was built with: installed ones, and none of the solver stack.
-ninja -C "$work/build" -t deps >"$work/headers"
-grep -q "$work/seam/include/seam/term/kernel_term.hpp" "$work/headers" || fail "the installed headers were not used"
-if grep -q "$source/core" "$work/headers"; then fail "headers of the source tree were used"; fi
-if grep -iE "trilinos|Tpetra|Teuchos|Kokkos|vtk" "$work/headers"; then fail "a plugin must not need these headers"; fi
+# build_plugin NAME SOURCES: to $work/NAME-build
+build_plugin() {
+  # A copy, so that nothing is found by its place in the source tree.
+  cp -r "$2" "$work/$1"
+  cmake -S "$work/$1" -B "$work/$1-build" -G Ninja -DCMAKE_PREFIX_PATH="$work/seam" $launcher \
+    -DCMAKE_CXX_FLAGS="-Wall -Wextra -Wpedantic -Wshadow -Werror"
+  cmake --build "$work/$1-build"
+
+  # Headers that the plugin was built with: installed ones, and none of the solver stack.
+  ninja -C "$work/$1-build" -t deps >"$work/headers"
+  grep -q "$work/seam/include/seam/term/kernel_term.hpp" "$work/headers" || fail "the installed headers were not used"
+  if grep -q "$source/core" "$work/headers"; then fail "headers of the source tree were used"; fi
+  if grep -iE "trilinos|Tpetra|Teuchos|Kokkos|vtk" "$work/headers"; then fail "a plugin must not need these headers"; fi
+
+  ctest --test-dir "$work/$1-build" --output-on-failure
+}
+
+build_plugin example "$source/tools/template"
+build_plugin friction "$source/tests/out_of_tree/friction"
 
 # The material, the volume term and the CMake calls that make a plugin of them.
-lines=$(cat "$work/template/mooney_rivlin.cpp" "$work/template/heat.cpp" | wc -l)
+lines=$(cat "$work/example/mooney_rivlin.cpp" "$work/example/heat.cpp" | wc -l)
 cmake_lines=$(sed -n '/^cmake_minimum/p;/^project/p;/^find_package/p;/^seam_add_plugin/,/)$/p' \
-  "$work/template/CMakeLists.txt" | wc -l)
+  "$work/example/CMakeLists.txt" | wc -l)
 echo "material and volume term: $lines lines, CMake: $cmake_lines lines"
 [ $((lines + cmake_lines)) -lt 100 ] || fail "material, volume term and CMake take 100 lines or more"
 
-ctest --test-dir "$work/build" --output-on-failure
-
-# Installed, the plugin is found without any variable.
-cmake --install "$work/build" --prefix "$work/seam" >/dev/null
+# Installed, a plugin is found without any variable.
+cmake --install "$work/example-build" --prefix "$work/seam" >/dev/null
 cd "$work"
-env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" verify "$work"/template/conformance/*.yaml --quiet
+env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" verify "$work"/example/conformance/*.yaml --quiet
 env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" plugin test "$work"/seam/lib*/seam/plugins/libseam_example.so --ranks 1

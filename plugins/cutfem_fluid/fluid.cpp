@@ -168,6 +168,7 @@ void Fluid::add_outputs(FieldSetup& setup) const {
   setup.add_output("velocity_gradient", make_quantity(VelocityGradient{}), velocity_only);
   setup.add_output("vorticity", make_quantity(Vorticity{}), velocity_only);
   setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{flow_.density}), velocity_only);
+  setup.add_integral("dissipation", make_quantity(Dissipation{flow_.viscosity}), velocity_only);
   setup.add_integral("volume", make_quantity(Volume{}), velocity_only);
   setup.add_integral("divergence", make_quantity(Divergence{}), velocity_only);
 }

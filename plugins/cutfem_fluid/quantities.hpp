@@ -60,6 +60,18 @@ struct KineticEnergy {
   }
 };
 
+/// 2 mu eps : eps, W per volume: what viscosity turns into heat.
+struct Dissipation {
+  using Reads = Slots<Gradient<Velocity>>;
+  static constexpr int values(int) { return 1; }
+  double viscosity;  ///< Pa s
+  template <int dim>
+  void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* value) const {
+    const auto rate = sym(s.gradient(Velocity{}));
+    *value = 2 * viscosity * inner(rate, rate);
+  }
+};
+
 /// div v, 1/s: integrated, the volume that a fluid of constant volume makes or loses.
 struct Divergence {
   using Reads = Slots<Gradient<Velocity>>;

@@ -14,13 +14,14 @@ namespace {
 struct Window {
   std::span<const double> time, value;
 
-  /// Time average by the trapezoidal rule.
-  [[nodiscard]] double mean() const {
+  /// Over time, by the trapezoidal rule.
+  [[nodiscard]] double integral() const {
     double sum = 0;
     for (std::size_t k = 1; k < time.size(); ++k)
       sum += (time[k] - time[k - 1]) * (value[k] + value[k - 1]) / 2;
-    return sum / (time.back() - time.front());
+    return sum;
   }
+  [[nodiscard]] double mean() const { return integral() / (time.back() - time.front()); }
   /// Of the upward crossings of the mean, interpolated between the steps; 0 when there are fewer than two.
   [[nodiscard]] double frequency() const {
     const double level = mean();
@@ -33,6 +34,12 @@ struct Window {
       if (crossings++ == 0) first = last;
     }
     return crossings > 1 ? (crossings - 1) / (last - first) : 0;
+  }
+  /// Largest increase from one step to the next; 0 when it never increases.
+  [[nodiscard]] double rise() const {
+    double most = 0;
+    for (std::size_t k = 1; k < value.size(); ++k) most = std::max(most, value[k] - value[k - 1]);
+    return most;
   }
   /// Largest deviation of a value from the cubic through its four neighbours, over the largest magnitude. For
   /// a smooth series at equal steps it falls with the fourth power of the step; jumps keep it up.
@@ -60,6 +67,8 @@ double statistic(const Parameters& p, const Results& results) {
   const std::string& what = p.text("what");
   if (what == "maximum") return *std::max_element(window.value.begin(), window.value.end());
   if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
+  if (what == "integral") return window.integral();
+  if (what == "rise") return window.rise();
   if (what == "roughness") return window.roughness();
   return what == "mean" ? window.mean() : window.frequency();
 }
@@ -69,8 +78,12 @@ double statistic(const Parameters& p, const Results& results) {
 void record_formulas(const Scene& scene, Results& results) {
   for (const auto& [name, p] : scene.root.object("output").map("formulas")) {
     std::map<std::string, double> known = scene.parameters;
-    for (const auto& [series, values] : results.series)
-      if (series.find('.') == std::string::npos && !values.empty()) known[series] = values.back();
+    known["t"] = results.time.back();
+    for (const auto& [series, values] : results.series) {
+      std::string spelled = series;
+      std::replace(spelled.begin(), spelled.end(), '.', '_');
+      if (!values.empty()) known[spelled] = values.back();
+    }
     try {
       results.series[name].push_back(evaluate_constant(p.text("value"), known));
     } catch (const Error& error) {

@@ -102,7 +102,9 @@ Schema probe_schema() {
 
 Schema formula_schema() {
   Schema schema("A number computed from others at every step.");
-  schema.text("value", "formula of the probes (those without a dot in their name) and of the parameters");
+  schema.text("value",
+              "formula of what is recorded (with _ for the dots in its names: cylinder_volume), of the "
+              "parameters and of the time t");
   return schema;
 }
 
@@ -111,9 +113,11 @@ Schema statistic_schema() {
   schema.text("of", "a probe or a formula");
   schema.choice(
       "what",
-      "frequency: of the upward crossings of the mean; roughness: largest deviation of a value from "
-      "the cubic through its four neighbours, over the largest magnitude",
-      {"maximum", "minimum", "mean", "frequency", "roughness"});
+      "integral: over time; frequency: of the upward crossings of the mean; rise: largest increase from one "
+      "step to the next; "
+      "roughness: largest deviation of a value from the cubic through its four neighbours, over the largest "
+      "magnitude",
+      {"maximum", "minimum", "mean", "integral", "frequency", "rise", "roughness"});
   schema.number("from", "time from which on it counts; default the start").unit("s").optional();
   return schema;
 }
