@@ -102,7 +102,9 @@ Schema probe_schema() {
 
 Schema formula_schema() {
   Schema schema("A number computed from others at every step.");
-  schema.text("value", "formula of the probes (those without a dot in their name) and of the parameters");
+  schema.text("value",
+              "formula of what is recorded (with _ for the dots in its names: cylinder_volume), of the "
+              "parameters and of the time t");
   return schema;
 }
 
@@ -112,8 +114,9 @@ Schema statistic_schema() {
   schema.choice(
       "what",
       "frequency: of the upward crossings of the mean; roughness: largest deviation of a value from "
-      "the cubic through its four neighbours, over the largest magnitude",
-      {"maximum", "minimum", "mean", "frequency", "roughness"});
+      "the cubic through its four neighbours, over the largest magnitude; curvature: largest second "
+      "derivative in time; kink: the same over the median one; kink_time: where it is",
+      {"maximum", "minimum", "mean", "frequency", "roughness", "curvature", "kink", "kink_time"});
   schema.number("from", "time from which on it counts; default the start").unit("s").optional();
   return schema;
 }
