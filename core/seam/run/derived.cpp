@@ -74,15 +74,19 @@ double statistic(const Parameters& p, const Results& results) {
   if (series == results.series.end())
     throw Error(p.where("of"), fmt::format("no series '{}' was recorded", p.text("of")));
   const double from = p.has("from") ? p.number("from") : results.time.front();
-  const std::size_t first =
-      std::lower_bound(results.time.begin(), results.time.end(), from) - results.time.begin();
+  const double to = p.has("to") ? p.number("to") : results.time.back();
+  const auto begin = std::lower_bound(results.time.begin(), results.time.end(), from);
+  const auto count = static_cast<std::size_t>(
+      std::max<std::ptrdiff_t>(0, std::upper_bound(begin, results.time.end(), to) - begin));
+  const std::size_t first = begin - results.time.begin();
   const std::string& what = p.text("what");
   const bool bends = what == "curvature" || what.starts_with("kink");
   const std::size_t least = bends ? 3 : 2;
-  if (first + least > results.time.size())
-    throw Error(p.where("from"), fmt::format("fewer than {} steps were recorded from t = {} on",
-                                             bends ? "three" : "two", from));
-  const Window window{std::span(results.time).subspan(first), std::span(series->second).subspan(first)};
+  if (count < least)
+    throw Error(p.where(), fmt::format("fewer than {} steps were recorded from t = {} to {}",
+                                       bends ? "three" : "two", from, to));
+  const Window window{std::span(results.time).subspan(first, count),
+                      std::span(series->second).subspan(first, count)};
   if (what == "maximum") return *std::max_element(window.value.begin(), window.value.end());
   if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
   if (what == "roughness") return window.roughness();
