@@ -173,8 +173,7 @@ std::string markdown(const StudyReport& report, const std::string& picture) {
       problems += fmt::format("- {}: {}\n", fmt::join(record.of.values, ", "), record.problem);
   }
   if (!problems.empty())
-    text +=
-        fmt::format("\n{}:\n\n{}", report.plan.until_failure ? "Failed" : "Without numbers", problems);
+    text += fmt::format("\n{}:\n\n{}", report.plan.until_failure ? "Failed" : "Without numbers", problems);
   if (!picture.empty()) text += fmt::format("\n![{}]({})\n", report.title, picture);
   return text;
 }

@@ -21,8 +21,8 @@ struct Body {
   bool sliced = false;  ///< the plane of a spatial result, not all of it
 };
 
-/// Reads the results and prepares them. One that has no array for the colour stays grey, one that has none for
-/// the displacement stays where it is: a fluid knows no displacement.
+/// Reads the results and prepares them. One that has no array for the colour stays grey, one that has none
+/// for the displacement stays where it is: a fluid knows no displacement.
 /// @throws Error when a file cannot be read or none has such an array
 std::vector<Body> load_bodies(const Options& options);
 

@@ -186,10 +186,11 @@ Schema study_schema() {
       .text("leave_out",
             "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
       .optional();
-  schema.names("measure",
-               "numbers of each run: probes, error norms, time, unknowns, seconds.total, peak_memory_bytes, or "
-               "error(NAME): relative deviation of NAME from what the check of that name expects, or "
-               "error(NAME, REFERENCE)");
+  schema.names(
+      "measure",
+      "numbers of each run: probes, error norms, time, unknowns, seconds.total, peak_memory_bytes, or "
+      "error(NAME): relative deviation of NAME from what the check of that name expects, or "
+      "error(NAME, REFERENCE)");
   schema
       .boolean("until_failure",
                "runs that fail are part of the result: they are measured at their last good state")
