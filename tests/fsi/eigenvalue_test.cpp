@@ -96,7 +96,7 @@ TEST_CASE("a cell under uniform pressure is as stiff as its material, however hi
   // At a stretch s with J = s^2 stresses change by 4c eps + k tr(eps) I, k = 2c((2 beta + 1) J^-(2 beta + 1)
   // - 1): as those of an undeformed cell of Lame's constants 2c and k.
   const double c = 100 / 4.4, beta = 0.125;
-  for (const double s : {0.9, 0.6, 0.35, 1.1}) {
+  for (const double s : {1.05, 0.9, 0.6, 0.35}) {
     Body pressed(2, 0.5, {s - 1, 0, 0, s - 1});
     const double k = 2 * c * ((2 * beta + 1) * std::pow(s, -4 * beta - 2) - 1);
     const double poisson = k / (2 * (k + 2 * c)), young = 4 * c * (1 + poisson);
