@@ -10,7 +10,7 @@ TEST_CASE("a kink in a series is found with its size and its time") {
   // A rigid motion in one direction: x(t) = t^2/2 with a kink of slope 3 at t = 0.6. The second derivative is
   // 1, at the kink 3/step more.
   const Folder folder;
-  const std::string scene = folder.file("block.yaml", R"(
+  const std::string scene = folder.file("block.yaml", R"yaml(
 title: a block that is led
 dimension: 2
 plugins: [solid]
@@ -43,7 +43,7 @@ field:
     kink: {of: tip.x, what: kink}
     at: {of: tip.x, what: kink_time}
     last: {of: change, what: maximum, to: 0.41}
-)");
+)yaml");
   const auto run = seam("run " + scene + " --quiet --no-picture --folder " + (folder.path / "out").string());
   CAPTURE(run.output);
   REQUIRE(run.code == 0);
@@ -54,4 +54,4 @@ field:
   CHECK(results["at"].get<double>() == Approx(0.6));
   CHECK(results["last"].get<double>() == Approx(0.4));
   CHECK(results["block.volume_rate"].get<double>() == Approx(0).margin(1e-8));
-  }
+}
