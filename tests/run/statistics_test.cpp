@@ -10,7 +10,7 @@ TEST_CASE("a kink in a series is found with its size and its time") {
   // A rigid motion in one direction: x(t) = t^2/2 with a kink of slope 3 at t = 0.6. The second derivative is
   // 1, at the kink 3/step more.
   const Folder folder;
-  const std::string scene = folder.file("block.yaml", R"yaml(
+  const std::string scene = folder.file("block.yaml", R"scene(
 title: a block that is led
 dimension: 2
 plugins: [solid]
@@ -21,21 +21,12 @@ fields:
     mesh: block
     density: 1
     material: {type: neo_hookean, young: 10, poisson: 0}
-    boundary: [{on: [x_min, x_max], displacement: ["t*t/2 + 3*max(t - 0.6, 0)", 0]
-}]
-time: {
-end:
-  1, step : {
-  initial:
-    0.1
-  }
-}
-output : fields : false probes : {
-tip : {
-field:
-  block, at : [ 1, 0.5 ], quantity : displacement
-}
-}
+    boundary:
+      - {on: [x_min, x_max], displacement: ["t*t/2 + 3*max(t - 0.6, 0)", 0]}
+time: {end: 1, step: {initial: 0.1}}
+output:
+  fields: false
+  probes: {tip: {field: block, at: [1, 0.5], quantity: displacement}}
   formulas: {change: block_volume - 1 + t}
   statistics:
     bend: {of: tip.x, what: curvature}
@@ -43,7 +34,7 @@ field:
     kink: {of: tip.x, what: kink}
     at: {of: tip.x, what: kink_time}
     last: {of: change, what: maximum, to: 0.41}
-)yaml");
+)scene");
   const auto run = seam("run " + scene + " --quiet --no-picture --folder " + (folder.path / "out").string());
   CAPTURE(run.output);
   REQUIRE(run.code == 0);

@@ -1,7 +1,6 @@
 // A disc of radius 0.25 about (0.5, 0.5): a core of n x n cells and four blocks of n x m between it and the circle.
 //   gmsh -2 -format msh41 disc.geo -setnumber n 3  -setnumber m 3  -o disc_45.msh
 //   gmsh -2 -format msh41 disc.geo -setnumber n 8  -setnumber m 6  -o disc_256.msh
-//   gmsh -2 -format msh41 disc.geo -setnumber n 36 -setnumber m 16 -o disc_3600.msh
 SetFactory("Built-in");
 DefineConstant[ n = 3, m = 3 ];
 r = 0.25;
