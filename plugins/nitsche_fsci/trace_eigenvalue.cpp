@@ -21,15 +21,34 @@ Eigen::MatrixXd gradient_operator(const CellTrace& cell, const CellPoints& point
   return result;
 }
 
+/// The derivative of P + p J F^-T at constant p = -tr(sigma)/dim, [component][direction] twice: the stiffness
+/// of a body on all sides of which its own mean pressure acts. That of P alone is not positive for moderate
+/// pressure already, when a piece cut free would turn or buckle under the dead forces of its surroundings.
+template <int dim>
+Eigen::Matrix<double, dim * dim, dim * dim, Eigen::RowMajor> pressed_tangent(const StressLaw& law,
+                                                                             const double* gradient) {
+  using Square = Eigen::Matrix<double, dim, dim, Eigen::RowMajor>;
+  Square stress;
+  Eigen::Matrix<double, dim * dim, dim * dim, Eigen::RowMajor> result;
+  law.evaluate(dim, gradient, stress.data(), result.data(), nullptr);
+  const Square f = Eigen::Map<const Square>(gradient) + Square::Identity();
+  const Square inverse = f.inverse();
+  const double scale = stress.cwiseProduct(f).sum() / dim;  // J tr(sigma)/dim
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j)
+      for (int k = 0; k < dim; ++k)
+        for (int l = 0; l < dim; ++l)
+          result(i * dim + j, k * dim + l) -=
+              scale * (inverse(j, i) * inverse(l, k) - inverse(l, i) * inverse(j, k));
+  return result;
+}
+
 template <int dim>
 Eigen::MatrixXd stiffness(const StressLaw& law, const CellTrace& cell) {
   constexpr int n = dim * dim;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(dim * cell.nodes, dim * cell.nodes);
   for (int q = 0; q < cell.volume.count(); ++q) {
-    double stress[n];
-    Eigen::Matrix<double, n, n, Eigen::RowMajor> tangent;
-    law.evaluate(dim, &cell.volume.gradient[static_cast<std::size_t>(q) * n], stress, tangent.data(),
-                 nullptr);
+    const auto tangent = pressed_tangent<dim>(law, &cell.volume.gradient[static_cast<std::size_t>(q) * n]);
     const Eigen::MatrixXd g = gradient_operator<dim>(cell, cell.volume, q);
     result += cell.volume.weight[q] * g.transpose() * tangent * g;
   }

@@ -133,4 +133,14 @@ struct CurrentVolume {
   }
 };
 
+/// Rate of the current volume per reference volume, cof F : grad_0 v, 1/s.
+struct VolumeRate {
+  using Reads = Slots<Gradient<u>, RateGradient<u>>;
+  static constexpr int values(int) { return 1; }
+  template <int dim>
+  void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* value) const {
+    *value = inner(Deformation<dim, double>(s.gradient(u{})).cofactor, s.rate_gradient(u{}));
+  }
+};
+
 }  // namespace seam::solid

@@ -136,6 +136,7 @@ void Solid::add_outputs(FieldSetup& setup) const {
   setup.add_integral("strain_energy", make_quantity(StrainEnergy{material_}), displacement_only);
   setup.add_integral("volume", make_quantity(CurrentVolume{}), displacement_only);
   if (density_ == 0) return;
+  setup.add_integral("volume_rate", make_quantity(VolumeRate{}), displacement_only);
   setup.add_output("velocity", make_quantity(Velocity{}), displacement_only);
   setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{density_}), displacement_only);
 }

@@ -34,9 +34,9 @@ struct Body {
 
   /// lambda_e of the cell that has most (`corner`) or, in the plane, one of its faces on the surface.
   double lambda(const std::string& law, bool corner, double young = 100,
-                CellConstant::Refresh refresh = CellConstant::Refresh::iteration) {
+                CellConstant::Refresh refresh = CellConstant::Refresh::iteration, double poisson = 0.1) {
     const auto stress =
-        std::make_shared<LawStress<solid::Piola>>(solid::Piola{test::material(law, young, 0.1)});
+        std::make_shared<LawStress<solid::Piola>>(solid::Piola{test::material(law, young, poisson)});
     CellConstants constants(*field, field->place("displacement"));
     constants.add(std::make_shared<fsci::TraceEigenvalue>(stress, refresh));
     const int cell = corner ? 0 : 1;
@@ -90,6 +90,22 @@ TEST_CASE("the update policy chooses the deformation") {
   CHECK(body.lambda("neo_hookean", true, 100, CellConstant::Refresh::once) == undeformed);
   CHECK(body.lambda("neo_hookean", true, 100, CellConstant::Refresh::step) == undeformed);  // old state
   CHECK(body.lambda("neo_hookean", true) != undeformed);
+}
+
+TEST_CASE("a cell under uniform pressure is as stiff as its material, however high the pressure") {
+  // At a stretch s with J = s^2 stresses change by 4c eps + k tr(eps) I, k = 2c((2 beta + 1) J^-(2 beta + 1)
+  // - 1): as those of an undeformed cell of Lame's constants 2c and k.
+  const double c = 100 / 4.4, beta = 0.125;
+  for (const double s : {1.05, 0.9, 0.6, 0.35}) {
+    Body pressed(2, 0.5, {s - 1, 0, 0, s - 1});
+    const double k = 2 * c * ((2 * beta + 1) * std::pow(s, -4 * beta - 2) - 1);
+    const double poisson = k / (2 * (k + 2 * c)), young = 4 * c * (1 + poisson);
+    Body same(2, 0.5 * s);
+    for (const bool corner : {false, true})
+      CHECK(pressed.lambda("neo_hookean", corner) ==
+            Approx(same.lambda("neo_hookean", corner, young, CellConstant::Refresh::iteration, poisson))
+                .epsilon(1e-9));
+  }
 }
 
 TEST_CASE("in space the corner of a cube exceeds its edge") {

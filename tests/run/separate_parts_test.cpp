@@ -302,7 +302,7 @@ TEST_CASE("fluid that a moving body closes off keeps its state") {
   // Between the cylinder and the walls parts of less than a cell come apart whose nodes all lie elsewhere.
   const Folder folder;
   const auto result = seam("verify " SEAM_SOURCE_DIR
-                           "/configs/fsi/soft_cylinder.yaml --quiet --set fields.water.parts=separate --set "
+                           "/configs/fsi/c03.yaml --quiet --set fields.water.parts=separate --set "
                            "output.folder=" +
                            (folder.path / "run").string());
   INFO(result.output);

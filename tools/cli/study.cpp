@@ -120,23 +120,29 @@ StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options&
   return record;
 }
 
-void read_measures(StudyRecord& record, const std::vector<std::string>& columns, const fs::path& folder) {
-  if (!record.problem.empty()) return;
+void read_measures(StudyRecord& record, const StudyReport& report, const fs::path& folder) {
+  if (!record.problem.empty() && !report.plan.until_failure) return;
   const nlohmann::json summary = read_summary(folder);
-  for (const std::string& column : columns) record.numbers[column] = measure(summary, column);
+  for (const std::string& column : report.columns()) {
+    try {
+      if (summary.is_object()) record.numbers[column] = measure(summary, column);
+    } catch (const Error&) {
+      if (record.problem.empty()) throw;  // what is known at the end only, a failed run does not have
+    }
+  }
 }
 
 void show(const StudyReport& report, const StudyRecord& record) {
   std::string line = fmt::format("[{}/{}]", report.records.size() + 1, report.plan.cases.size());
   for (std::size_t k = 0; k < report.plan.labels.size(); ++k)
     line += fmt::format(" {}={}", report.plan.labels[k], record.of.values[k]);
-  if (!record.problem.empty()) {
-    fmt::print("{}: {}\n", line, record.problem);
-  } else {
-    for (const std::string& name : report.plan.measures)
-      line += fmt::format("  {} {:.6g}", name, record.numbers.at(name));
+  for (const std::string& name : report.plan.measures)
+    if (const auto found = record.numbers.find(name); found != record.numbers.end())
+      line += fmt::format("  {} {:.6g}", name, found->second);
+  if (record.problem.empty())
     fmt::print("{}  ({:.2f} s)\n", line, record.numbers.at("seconds.total"));
-  }
+  else
+    fmt::print("{}: {}\n", line, record.problem);
   std::fflush(stdout);
 }
 
@@ -191,9 +197,9 @@ int run(const Options& options) {
   for (std::size_t i = 0; i < report.plan.cases.size(); ++i) {
     const fs::path own = folder / fmt::format("case{:03}", i + 1);
     StudyRecord record = run_case(report.plan, report.plan.cases[i], options, own, versions);
-    read_measures(record, report.columns(), own);
+    read_measures(record, report, own);
     show(report, record);
-    bad += record.problem.empty() ? 0 : 1;
+    bad += record.problem.empty() || report.plan.until_failure ? 0 : 1;
     report.records.push_back(std::move(record));
   }
   const std::string fingerprint = versions.is_object() ? versions.value("fingerprint", "unknown") : "unknown";

@@ -142,6 +142,7 @@ StudyPlan plan_study(const std::string& scene_file, const std::vector<std::strin
   StudyPlan plan;
   plan.title = scene.root.text("title");
   plan.measures = study.names("measure");
+  plan.until_failure = study.boolean("until_failure");
   for (const auto& [name, values] : vary) {
     plan.keys.push_back(key_path(name, scene, values.where()));
     const bool is_parameter = plan.keys.back().starts_with(parameters_prefix);

@@ -21,6 +21,7 @@ struct StudyPlan {
   std::vector<std::string> labels;    ///< the same for readers: parameters by their names
   std::vector<std::string> measures;  ///< numbers of each run
   std::size_t against = 0;            ///< key on the horizontal axis
+  bool until_failure = false;         ///< measure failed runs at their last good state
   std::vector<StudyCase> cases;
 };
 

@@ -93,13 +93,13 @@ double measure(const nlohmann::json& summary, const std::string& name) {
   const std::string seconds = "seconds.";
   if (name.starts_with(seconds) && summary.at("seconds").contains(name.substr(seconds.size())))
     return as_number(summary.at("seconds").at(name.substr(seconds.size())));
-  for (const std::string own : {"unknowns", "peak_memory_bytes", "steps", "rejected_steps"})
+  for (const std::string own : {"time", "unknowns", "peak_memory_bytes", "steps", "rejected_steps"})
     if (name == own) return as_number(summary.at(own));
   const nlohmann::json& results = summary.at("results");
   if (results.contains(name)) return as_number(results.at(name));
   const std::string guess = nearest_name(name, keys(results));
   throw Error(
-      fmt::format("study.measure: the run has no '{}'.{} It has: {}, unknowns, steps, rejected_steps, "
+      fmt::format("study.measure: the run has no '{}'.{} It has: {}, time, unknowns, steps, rejected_steps, "
                   "peak_memory_bytes, seconds.{}",
                   name, guess.empty() ? "" : fmt::format(" Did you mean '{}'?", guess),
                   fmt::join(keys(results), ", "), fmt::join(keys(summary.at("seconds")), ", seconds.")));
@@ -172,7 +172,8 @@ std::string markdown(const StudyReport& report, const std::string& picture) {
     if (!record.problem.empty())
       problems += fmt::format("- {}: {}\n", fmt::join(record.of.values, ", "), record.problem);
   }
-  if (!problems.empty()) text += "\nWithout numbers:\n\n" + problems;
+  if (!problems.empty())
+    text += fmt::format("\n{}:\n\n{}", report.plan.until_failure ? "Failed" : "Without numbers", problems);
   if (!picture.empty()) text += fmt::format("\n![{}]({})\n", report.title, picture);
   return text;
 }

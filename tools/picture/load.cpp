@@ -12,6 +12,7 @@
 #include <vtkXMLPUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -75,7 +76,7 @@ int component_number(const std::string& word, int components, const std::string&
   return number;
 }
 
-void colour(Body& body, const std::string& file, const Options& options) {
+void colour(Body& body, const Options& options) {
   vtkDataSetAttributes* data = body.current->GetPointData();
   vtkDataArray* array = data->GetArray(options.array.c_str());
   if (!array) {
@@ -83,7 +84,7 @@ void colour(Body& body, const std::string& file, const Options& options) {
     array = data->GetArray(options.array.c_str());
     body.cell_values = true;
   }
-  if (!array) no_array(body.current, file, options.array);
+  if (!array) return;
   const int components = array->GetNumberOfComponents();
   const int component = component_number(options.component, components, options.array);
   vtkNew<vtkDoubleArray> values;
@@ -100,7 +101,7 @@ void colour(Body& body, const std::string& file, const Options& options) {
 
 void displace(Body& body, const std::string& file, const Options& options) {
   vtkDataArray* by = body.reference->GetPointData()->GetArray(options.deform.c_str());
-  if (!by) no_array(body.reference, file, options.deform);
+  if (!by) return;
   if (by->GetNumberOfComponents() != 3)
     throw Error(Location{file}, fmt::format("array '{}' has {} components; a displacement has 3",
                                             options.deform, by->GetNumberOfComponents()));
@@ -113,6 +114,7 @@ void displace(Body& body, const std::string& file, const Options& options) {
     points->SetPoint(i, x);
   }
   body.current->SetPoints(points);
+  body.displaced = true;
 }
 
 /// A spatial result becomes what it is at half its height, its vectors what they are along that plane.
@@ -145,17 +147,30 @@ bool slice(vtkSmartPointer<vtkUnstructuredGrid>& grid) {
   return true;
 }
 
-}  // namespace
-
-Body load_body(const std::string& file, const Options& options) {
+Body load(const std::string& file, const Options& options) {
   Body body;
   body.reference = read(file);
   if (options.streamlines > 0) body.sliced = slice(body.reference);
   body.current = vtkSmartPointer<vtkUnstructuredGrid>::New();
   body.current->ShallowCopy(body.reference);
-  if (!options.array.empty()) colour(body, file, options);
-  if (!options.deform.empty()) displace(body, file, options);
+  colour(body, options);
+  displace(body, file, options);
   return body;
+}
+
+}  // namespace
+
+std::vector<Body> load_bodies(const Options& options) {
+  std::vector<Body> bodies;
+  for (const std::string& file : options.files) bodies.push_back(load(file, options));
+  const auto none = [&](bool Body::*flag) {
+    return std::none_of(bodies.begin(), bodies.end(), [flag](const Body& b) { return b.*flag; });
+  };
+  if (!options.array.empty() && none(&Body::coloured))
+    no_array(bodies.front().reference, options.files.front(), options.array);
+  if (!options.deform.empty() && none(&Body::displaced))
+    no_array(bodies.front().reference, options.files.front(), options.deform);
+  return bodies;
 }
 
 }  // namespace seam::picture

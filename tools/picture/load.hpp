@@ -5,6 +5,7 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <string>
+#include <vector>
 
 #include "options.hpp"
 
@@ -15,12 +16,14 @@ struct Body {
   vtkSmartPointer<vtkUnstructuredGrid> reference;  ///< as in the file
   vtkSmartPointer<vtkUnstructuredGrid> current;  ///< displaced; scalars (if any) are the values to colour by
   bool coloured = false;
+  bool displaced = false;
   bool cell_values = false;
   bool sliced = false;  ///< the plane of a spatial result, not all of it
 };
 
-/// Reads a result and prepares it.
-/// @throws Error when the file cannot be read or has no such array
-Body load_body(const std::string& file, const Options& options);
+/// Reads the results and prepares them. One that has no array for the colour stays grey, one that has none
+/// for the displacement stays where it is: a fluid knows no displacement.
+/// @throws Error when a file cannot be read or none has such an array
+std::vector<Body> load_bodies(const Options& options);
 
 }  // namespace seam::picture

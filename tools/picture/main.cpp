@@ -42,9 +42,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   try {
-    std::vector<seam::picture::Body> bodies;
-    for (const auto& file : options.files) bodies.push_back(load_body(file, options));
-    render(bodies, options);
+    render(seam::picture::load_bodies(options), options);
   } catch (const std::exception& e) {
     std::cerr << "seam-picture: " << e.what() << '\n';
     return 1;

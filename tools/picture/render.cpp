@@ -189,20 +189,25 @@ void add_surface(vtkRenderer* renderer, const Body& body, vtkLookupTable* colour
   renderer->AddActor(actor);
 }
 
-/// The array that streamlines follow, on one body.
-std::string followed(const Body& body, const Options& options) {
-  const std::string& name = options.along.empty() ? options.array : options.along;
+/// Whether a body has the vector at its points that streamlines follow.
+bool can_follow(const Body& body, const std::string& name) {
   vtkDataArray* array = body.current->GetPointData()->GetArray(name.c_str());
-  if (!array || array->GetNumberOfComponents() != 3)
-    throw Error(
-        fmt::format("streamlines follow a vector at the points; '{}' is none; name one with --along", name));
-  return name;
+  return array && array->GetNumberOfComponents() == 3;
 }
 
-void add_streamlines(vtkRenderer* renderer, const Body& body, const View& view, const Options& options,
-                     double width) {
+void add_streamlines(vtkRenderer* renderer, const std::vector<Body>& bodies, const View& view,
+                     const Options& options, double width) {
+  const std::string& name = options.along.empty() ? options.array : options.along;
   const double distance = std::min(view.width(), view.height()) / options.streamlines;
-  add_lines(renderer, streamlines_of(body.current, followed(body, options), distance), 0.0, width);
+  bool any = false;
+  for (const Body& b : bodies) {
+    if (!can_follow(b, name)) continue;
+    add_lines(renderer, streamlines_of(b.current, name, distance), 0.0, width);
+    any = true;
+  }
+  if (!any)
+    throw Error(
+        fmt::format("streamlines follow a vector at the points; '{}' is none; name one with --along", name));
 }
 
 void style(vtkTextProperty* text, int size) {
@@ -303,9 +308,9 @@ void render(const std::vector<Body>& bodies, const Options& options) {
     if (edges) add_lines(renderer, edges_of(b.current), 0.25, 0.7 * line);
     // The parts of cut cells do not meet their neighbours edge to edge in space: no outline tells them apart.
     if (!b.sliced) add_lines(renderer, outline_of(b.current), 0.1, 1.4 * line);
-    if (options.streamlines > 0) add_streamlines(renderer, b, view, options, line);
     if (!options.deform.empty()) add_lines(renderer, outline_of(b.reference), 0.55, 1.2 * line);
   }
+  if (options.streamlines > 0) add_streamlines(renderer, bodies, view, options, line);
   if (coloured) add_bar(renderer, colours, range.data(), layout, options);
   if (!options.title.empty())
     add_text(renderer, options.title, layout.font * 5 / 4, 0.5 * layout.width,

@@ -52,24 +52,54 @@ struct Window {
     for (const double v : value) largest = std::max(largest, std::abs(v));
     return largest > 0 ? deviation / largest : 0;
   }
+  /// Magnitude of the second derivative in time at each inner step, by divided differences.
+  [[nodiscard]] std::vector<double> curvatures() const {
+    std::vector<double> result;
+    for (std::size_t k = 1; k + 1 < value.size(); ++k) {
+      const double before = (value[k] - value[k - 1]) / (time[k] - time[k - 1]);
+      const double after = (value[k + 1] - value[k]) / (time[k + 1] - time[k]);
+      result.push_back(std::abs(after - before) / (0.5 * (time[k + 1] - time[k - 1])));
+    }
+    return result;
+  }
 };
+
+/// @param what one of those that speak of the second derivative
+double curvature_statistic(const std::string& what, const Window& window) {
+  std::vector<double> all = window.curvatures();
+  const auto largest = std::max_element(all.begin(), all.end());
+  if (what == "kink_time") return window.time[static_cast<std::size_t>(largest - all.begin()) + 1];
+  const double most = *largest;
+  if (what == "curvature") return most;
+  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
+  const double median = all[all.size() / 2];
+  return median > 0 ? most / median : 0;
+}
 
 double statistic(const Parameters& p, const Results& results) {
   const auto series = results.series.find(p.text("of"));
   if (series == results.series.end())
     throw Error(p.where("of"), fmt::format("no series '{}' was recorded", p.text("of")));
   const double from = p.has("from") ? p.number("from") : results.time.front();
-  const std::size_t first =
-      std::lower_bound(results.time.begin(), results.time.end(), from) - results.time.begin();
-  if (first + 2 > results.time.size())
-    throw Error(p.where("from"), fmt::format("fewer than two steps were recorded from t = {} on", from));
-  const Window window{std::span(results.time).subspan(first), std::span(series->second).subspan(first)};
+  const double to = p.has("to") ? p.number("to") : results.time.back();
+  const auto begin = std::lower_bound(results.time.begin(), results.time.end(), from);
+  const auto count = static_cast<std::size_t>(
+      std::max<std::ptrdiff_t>(0, std::upper_bound(begin, results.time.end(), to) - begin));
+  const std::size_t first = begin - results.time.begin();
   const std::string& what = p.text("what");
+  const bool bends = what == "curvature" || what.starts_with("kink");
+  const std::size_t least = bends ? 3 : 2;
+  if (count < least)
+    throw Error(p.where(), fmt::format("fewer than {} steps were recorded from t = {} to {}",
+                                       bends ? "three" : "two", from, to));
+  const Window window{std::span(results.time).subspan(first, count),
+                      std::span(series->second).subspan(first, count)};
   if (what == "maximum") return *std::max_element(window.value.begin(), window.value.end());
   if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
   if (what == "integral") return window.integral();
   if (what == "rise") return window.rise();
   if (what == "roughness") return window.roughness();
+  if (bends) return curvature_statistic(what, window);
   return what == "mean" ? window.mean() : window.frequency();
 }
 

@@ -114,11 +114,13 @@ Schema statistic_schema() {
   schema.choice(
       "what",
       "integral: over time; frequency: of the upward crossings of the mean; rise: largest increase from one "
-      "step to the next; "
-      "roughness: largest deviation of a value from the cubic through its four neighbours, over the largest "
-      "magnitude",
-      {"maximum", "minimum", "mean", "integral", "frequency", "rise", "roughness"});
+      "step to the next; roughness: largest deviation of a value from the cubic through its four "
+      "neighbours, over the largest magnitude; curvature: largest second derivative in time; kink: the same "
+      "over the median one; kink_time: where it is",
+      {"maximum", "minimum", "mean", "integral", "frequency", "rise", "roughness", "curvature", "kink",
+       "kink_time"});
   schema.number("from", "time from which on it counts; default the start").unit("s").optional();
+  schema.number("to", "time up to which it counts; default the end").unit("s").optional();
   return schema;
 }
 
@@ -186,10 +188,15 @@ Schema study_schema() {
       .text("leave_out",
             "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
       .optional();
-  schema.names("measure",
-               "numbers of each run: probes, error norms, unknowns, seconds.total, peak_memory_bytes, or "
-               "error(NAME): relative deviation of NAME from what the check of that name expects, or "
-               "error(NAME, REFERENCE)");
+  schema.names(
+      "measure",
+      "numbers of each run: probes, error norms, time, unknowns, seconds.total, peak_memory_bytes, or "
+      "error(NAME): relative deviation of NAME from what the check of that name expects, or "
+      "error(NAME, REFERENCE)");
+  schema
+      .boolean("until_failure",
+               "runs that fail are part of the result: they are measured at their last good state")
+      .otherwise("false");
   schema.text("against", "key of `vary` on the horizontal axis; default the last one").optional();
   return schema;
 }
