@@ -32,14 +32,15 @@ TEST_CASE("recorded steps give the same on 1, 2 and 3 ranks and after a restart"
   const auto rows = table(first);
   REQUIRE(rows.size() > 20);
   CHECK(rows[rows.size() / 2][0] - rows[rows.size() / 2 - 1][0] > 1.5 * rows[1][0]);  // of several lengths
+  constexpr double zero = 1e-9;  // the rate of the body's volume is nothing but rounding
   for (const std::string ranks : {"2", "3"}) {
     INFO(ranks << " ranks");
     REQUIRE(seam(run(folder, "r" + ranks, replay), "mpirun --oversubscribe -np " + ranks).code == 0);
-    CHECK(difference(first, folder.read("r" + ranks + "/series.csv")) < 1e-6);
+    CHECK(difference(first, folder.read("r" + ranks + "/series.csv"), zero) < 1e-6);
   }
   REQUIRE(seam(run(folder, "parts", replay + "--stop-after 10"), "mpirun --oversubscribe -np 3").code == 0);
   REQUIRE(seam(run(folder, "parts", replay + "--resume")).code == 0);
-  CHECK(difference(first, folder.read("parts/series.csv")) < 1e-6);
+  CHECK(difference(first, folder.read("parts/series.csv"), zero) < 1e-6);
   REQUIRE(seam(run(folder, "one", replay + "--stop-after 10")).code == 0);
   REQUIRE(seam(run(folder, "one", replay + "--resume")).code == 0);
   CHECK(first == folder.read("one/series.csv"));

@@ -24,14 +24,15 @@ inline std::vector<std::vector<double>> table(const std::string& csv) {
   return rows;
 }
 
-/// Largest difference between two series, each column relative to its largest value.
-inline double difference(const std::string& first, const std::string& second) {
+/// Largest difference between two series, each column relative to its largest value, or to `least` where that
+/// is less.
+inline double difference(const std::string& first, const std::string& second, double least = 0) {
   const auto a = table(first), b = table(second);
   REQUIRE(a.size() == b.size());
   REQUIRE(a.size() > 1);
   double worst = 0;
   for (std::size_t column = 0; column < a[0].size(); ++column) {
-    double size = 0, most = 0;
+    double size = least, most = 0;
     for (std::size_t row = 0; row < a.size(); ++row) {
       size = std::max(size, std::abs(a[row][column]));
       most = std::max(most, std::abs(a[row][column] - b[row][column]));

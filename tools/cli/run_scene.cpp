@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "seam/base/program.hpp"
 #include "run.hpp"
+#include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
 #include "session.hpp"
 

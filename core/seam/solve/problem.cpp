@@ -75,6 +75,7 @@ void Problem::finish(double time, bool shape_derivatives) {
       if (entry.cut) entry.cut->keep_at(level.open_boundaries);
     fields.push_back(entry.field.get());
   }
+  carry_rates();
   update_cuts(time_point(time, 0, 1));
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   using Role = ElementEvaluator::Role;
@@ -82,6 +83,24 @@ void Problem::finish(double time, bool shape_derivatives) {
     assembler_->add(domain, terms, shape_derivatives ? Role::integrate : Role::integrate_at_rest);
   if (shape_derivatives) add_swept_volumes();
   assembler_->rebuild();
+}
+
+/// Unknowns have the rates that couplings read, whatever their physics needs: a body without mass has a
+/// velocity where it meets a fluid.
+void Problem::carry_rates() {
+  for (const auto& [domain, terms] : domains_) {
+    const std::vector<Field*> fields = domain->fields();
+    if (fields.front() == fields.back()) continue;
+    for (const BoundTerm& bound : terms)
+      for (const Slot& slot : bound.term->signature(fields.front()->mesh().dimension()).inputs) {
+        if (slot.level != Level::rate && slot.level != Level::second_rate) continue;
+        const Operand& operand = bound.operands[slot.operand];
+        const Field::Place place = fields[operand.side]->place(operand.unknown);
+        Block& block = fields[operand.side]->blocks()[place.block];
+        for (int c = place.offset; c < place.offset + place.components; ++c)
+          block.time_order[c] = std::max(block.time_order[c], slot.level == Level::rate ? 1 : 2);
+      }
+  }
 }
 
 /// An interface that moves with a body sweeps over the volume of the field that it bounds.

@@ -172,6 +172,7 @@ class Problem {
   static void set_given(FieldEntry& entry, double time);
   SpaceChange update_cuts(const TimePoint& at);
   void add_swept_volumes();
+  void carry_rates();
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
