@@ -39,12 +39,12 @@ void check_parts(const CutMesh& cut) {
     const double size = std::pow(cut.cell_volume(c), 1.0 / static_cast<double>(dim));
     double volume = 0, area = 0;
     for (int p = 0; p < cut.parts(c); ++p) {
-      volume += cut.fluid_volume(c, p);
+      volume += cut.wet_volume(c, p);
       area += cut.interface_area(c, p);
       cut.volume_rule(c, 2, rule, p);
       double sum = 0;
       for (const double w : rule.weight) sum += w;
-      CHECK(std::abs(sum - cut.fluid_volume(c, p)) < 1e-12 * cut.cell_volume(c));
+      CHECK(std::abs(sum - cut.wet_volume(c, p)) < 1e-12 * cut.cell_volume(c));
       // The vector areas of interface and fluid faces of the part add up to zero.
       std::array<double, 3> closure{};
       cut.interface_rule(c, 1, interface, nullptr, p);
@@ -68,7 +68,7 @@ void check_parts(const CutMesh& cut) {
       }
       for (const double x : closure) CHECK(std::abs(x) < 1e-11 * std::pow(size, dim - 1));
     }
-    CHECK(std::abs(volume - cut.fluid_volume(c)) < 1e-12 * cut.cell_volume(c));
+    CHECK(std::abs(volume - cut.wet_volume(c)) < 1e-12 * cut.cell_volume(c));
     CHECK(area == Approx(cut.interface_area(c)).epsilon(1e-11));
   }
 }
@@ -89,7 +89,7 @@ std::vector<double> volumes_by_walking(const CutMesh& cut) {
       while (!front.empty()) {
         const auto [c, part] = front.back();
         front.pop_back();
-        volume[region] += cut.state(c) == CellState::cut ? cut.fluid_volume(c, part) : whole_volume(mesh, c);
+        volume[region] += cut.state(c) == CellState::cut ? cut.wet_volume(c, part) : whole_volume(mesh, c);
         for (int f = 0; f < faces; ++f)
           for (const auto& [own, other] : cut.joined(c, f))
             if (own == part && seen.emplace(std::pair(cut.neighbour(c, f), other), region).second)

@@ -305,8 +305,8 @@ int check_closure(const CutMesh& cut) {
     INFO("cell " << cell << ": open by " << open[0] / scale << ", " << open[1] / scale << ", "
                  << open[2] / scale);
     for (int i = 0; flat && i < dim; ++i) REQUIRE(std::abs(open[i]) / scale <= 1e-12);
-    REQUIRE(cut.fluid_volume(cell) >= 0);
-    REQUIRE(cut.fluid_volume(cell) <= volume * (1 + 1e-12));
+    REQUIRE(cut.wet_volume(cell) >= 0);
+    REQUIRE(cut.wet_volume(cell) <= volume * (1 + 1e-12));
     REQUIRE(cut.interface_area(cell) > 0);
   }
   return static_cast<int>(cut.cut_cells().size());
@@ -314,8 +314,8 @@ int check_closure(const CutMesh& cut) {
 
 void check_complement(const CutMesh& cut, const CutMesh& complement) {
   const auto fluid = [](const CutMesh& c, int cell) {
-    if (c.state(cell) == CellState::cut) return c.fluid_volume(cell);
-    return c.state(cell) == CellState::fluid ? 1e300 : 0.0;
+    if (c.state(cell) == CellState::cut) return c.wet_volume(cell);
+    return c.state(cell) == CellState::wet ? 1e300 : 0.0;
   };
   for (int cell = 0; cell < cut.mesh().cells(); ++cell) {
     const double a = fluid(cut, cell), b = fluid(complement, cell);
@@ -338,7 +338,7 @@ double total_fluid(const CutMesh& cut) {
   double sum = 0;
   for (int c = 0; c < cut.mesh().cells(); ++c)
     if (cut.state(c) != CellState::body)
-      sum += cut.state(c) == CellState::cut ? cut.fluid_volume(c) : whole_volume(cut.mesh(), c);
+      sum += cut.state(c) == CellState::cut ? cut.wet_volume(c) : whole_volume(cut.mesh(), c);
   return sum;
 }
 

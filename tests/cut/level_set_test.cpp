@@ -16,7 +16,7 @@ double owned_fluid(const CutMesh& cut) {
   double sum = 0;
   for (int c = 0; c < cut.mesh().owned_cells(); ++c)
     if (cut.state(c) != CellState::body)
-      sum += cut.state(c) == CellState::cut ? cut.fluid_volume(c) : whole_volume(cut.mesh(), c);
+      sum += cut.state(c) == CellState::cut ? cut.wet_volume(c) : whole_volume(cut.mesh(), c);
   return cut.mesh().communicator().sum(sum);
 }
 

@@ -64,7 +64,7 @@ int compare(const Triple& cuts, const Surface& surface, const std::vector<double
       swept += rule.weight[q] * normal_motion;
     }
     // The fluid grows by what the interface sweeps.
-    same(swept, cuts.plus.fluid_volume(cell), cuts.minus.fluid_volume(cell));
+    same(swept, cuts.plus.wet_volume(cell), cuts.minus.wet_volume(cell));
   }
   return compared;
 }

@@ -29,7 +29,7 @@ TEST_CASE("Parts of the fluid are told apart and small ones can be dropped", "[c
   std::vector<Surface> bodies = ring(.25, .25, .12, .06);
   for (const Surface& s : ring(.72, .68, .03, .06)) bodies.push_back(s);
   cut.cut(bodies);
-  const FluidParts parts = cut.find_parts();
+  const WetParts parts = cut.find_parts();
   REQUIRE(parts.volume.size() == 3);
   std::vector<double> sorted = parts.volume;
   std::sort(sorted.begin(), sorted.end());
@@ -46,7 +46,7 @@ TEST_CASE("Parts of the fluid are told apart and small ones can be dropped", "[c
   double left = 0;
   for (int c = 0; c < mesh.owned_cells(); ++c)
     if (cut.state(c) != CellState::body)
-      left += cut.state(c) == CellState::cut ? cut.fluid_volume(c) : whole_volume(mesh, c);
+      left += cut.state(c) == CellState::cut ? cut.wet_volume(c) : whole_volume(mesh, c);
   CHECK(communicator.sum(left) == Approx(1 - .36 * .36 - .18 * .18 + .24 * .24).epsilon(1e-12));
   CHECK(cut.find_parts().volume.size() == 2);
 }

@@ -167,7 +167,7 @@ TEST_CASE("A wall exactly on mesh lines belongs to the cells on the fluid side",
     CHECK(static_cast<int>(cut.cut_cells().size()) == (inside ? 8 : 12));
     InterfaceRule rule;
     for (const int c : cut.cut_cells()) {
-      CHECK(cut.fluid_volume(c) == Approx(h * h).epsilon(1e-13));
+      CHECK(cut.wet_volume(c) == Approx(h * h).epsilon(1e-13));
       const double sides = cut.interface_area(c) / h;
       CHECK(std::abs(sides - std::round(sides)) < 1e-13);
       cut.interface_rule(c, 2, rule);
@@ -223,7 +223,7 @@ TEST_CASE("The fluid part follows a moving body continuously", "[cut][plane]") {
     cut.cut(std::span(&now, 1));
     std::vector<double> fluid;
     for (int c = 0; c < mesh.cells(); ++c)
-      fluid.push_back(cut.state(c) == CellState::cut    ? cut.fluid_volume(c)
+      fluid.push_back(cut.state(c) == CellState::cut    ? cut.wet_volume(c)
                       : cut.state(c) == CellState::body ? 0.0
                                                         : whole_volume(mesh, c));
     for (std::size_t c = 0; c < before.size(); ++c)

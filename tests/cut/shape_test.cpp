@@ -9,7 +9,7 @@ using namespace seam;
 namespace {
 
 /// Area, or volume by the flux of the position through the faces.
-double enclosed(const FluidShape& shape, int dimension) {
+double enclosed(const WetShape& shape, int dimension) {
   double sum = 0;
   for (int p = 0; p < shape.count(); ++p) {
     const auto at = [&](int k) { return &shape.points[(shape.first[p] + k) * dimension]; };
@@ -47,15 +47,15 @@ double add_up(const std::vector<double>& corners, int dimension, double cell_vol
 }
 
 void check_shapes(const CutMesh& cut) {
-  FluidShape shape;
+  WetShape shape;
   std::vector<double> simplices;
   for (const int c : cut.cut_cells()) {
-    cut.fluid_shape(c, shape);
+    cut.wet_shape(c, shape);
     CHECK(enclosed(shape, cut.mesh().dimension()) ==
-          Approx(cut.fluid_volume(c)).margin(1e-12 * cut.cell_volume(c)));
-    cut.fluid_simplices(c, simplices);
+          Approx(cut.wet_volume(c)).margin(1e-12 * cut.cell_volume(c)));
+    cut.wet_simplices(c, simplices);
     CHECK(add_up(simplices, cut.mesh().dimension(), cut.cell_volume(c)) ==
-          Approx(cut.fluid_volume(c)).margin(1e-11 * cut.cell_volume(c)));
+          Approx(cut.wet_volume(c)).margin(1e-11 * cut.cell_volume(c)));
   }
 }
 

@@ -80,7 +80,7 @@ std::map<int, int> check_cells(const Folder& folder, double cell_volume, double 
   std::map<int, int> state;
   double sum = 0;
   for (vtkIdType c = 0; c < count; ++c) {
-    const double share = data->GetArray("fluid")->GetTuple1(c);
+    const double share = data->GetArray("wet")->GetTuple1(c);
     const int s = as_int(data->GetArray("state"), c);
     CHECK((s == 1 ? share > 0 && share < 1 : share == (s == 0 ? 1 : 0)));
     sum += share * cell_volume;

@@ -95,7 +95,7 @@ class InteriorFaceDomain final : public IntegrationDomain {
   enum class Faces {
     all,
     ghost,     ///< at least one of the cells is cut
-    wet_ghost  ///< and part of the face lies in the fluid
+    wet_ghost  ///< and part of the face lies in the wet part
   };
   InteriorFaceDomain(Field& field, int degree, Faces faces = Faces::all);
   [[nodiscard]] int size() const override { return static_cast<int>(faces_.size()); }

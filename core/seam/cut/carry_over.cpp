@@ -36,7 +36,7 @@ int set_at(const PartLayout& layout, int order, int cell, int part, int node) {
   return listed ? listed->set[order - 1][node] : 0;
 }
 
-/// Fluid that speaks for one set of a node having been another.
+/// What speaks for one set of a node having been another.
 struct Vote {
   int now, before;
   double volume;
@@ -123,7 +123,7 @@ void carry_over(Field& field, const PartLayout& before, const PartLayout& now, c
           const int set = set_at(now, order, cell, p, a), former = former_part(before, cut, cell, p);
           used[set] = 1;
           const double share =
-              cut.state(cell) == CellState::cut ? cut.fluid_volume(cell, p) / cut.cell_volume(cell) : 1.0;
+              cut.state(cell) == CellState::cut ? cut.wet_volume(cell, p) / cut.cell_volume(cell) : 1.0;
           // However thin a part is, it has a say where it is the only one.
           if (former != none)
             votes.push_back({set, set_at(before, order, cell, former, a), std::max(share, 1e-9)});

@@ -11,7 +11,7 @@ std::vector<double> cut_cell_costs(const Mesh& whole, const std::vector<Surface>
   std::vector<double> cost(whole.cells());
   for (int c = 0; c < whole.cells(); ++c) {
     const CellState state = cut.state(c);
-    cost[whole.global_cell(c)] = state == CellState::fluid ? 1.0 : state == CellState::cut ? 4.0 : 0.05;
+    cost[whole.global_cell(c)] = state == CellState::wet ? 1.0 : state == CellState::cut ? 4.0 : 0.05;
   }
   return cost;
 }

@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// Cost of each cell of a mesh out of which bodies are cut, relative to a whole cell of the fluid: those
+/// Cost of each cell of a mesh out of which bodies are cut, relative to a whole cell of the wet part: those
 /// inside a body cost next to nothing, cut ones have more points and an interface.
 /// @param whole the mesh, all of it on every rank
 /// @return [global cell]

@@ -7,8 +7,8 @@
 #include <map>
 
 #include "seam/base/disjoint_sets.hpp"
-#include "seam/cut/fluid_leaves.hpp"
 #include "seam/cut/slivers.hpp"
+#include "seam/cut/wet_leaves.hpp"
 
 namespace seam::cutting {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 /// Of a length, an area or a volume of the cell's size: less is rounding.
 constexpr double negligible = 1e-12;
 
-/// Which part the pieces and the fluid faces of a cell belong to.
+/// Which part the pieces and the wet faces of a cell belong to.
 struct Assignment {
   int count = 0;
   std::vector<int> piece;      ///< [piece], -1 unknown
@@ -26,7 +26,7 @@ struct Assignment {
 
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
 
-/// A directed part of the boundary of a plane cell's fluid, which lies on its left.
+/// A directed part of the boundary of a plane cell's wet part, which lies on its left.
 struct Stretch {
   Vector from, to;
   bool wet;
@@ -43,11 +43,11 @@ bool encloses(const std::vector<Stretch>& chain, const Vector& x) {
   return inside;
 }
 
-/// In the plane: chains of pieces and fluid sides that share end points. Those with a fluid side are the
+/// In the plane: chains of pieces and wet sides that share end points. Those with a wet side are the
 /// parts, however thin; the others are holes in them.
 Assignment chains(const CutCell& cell, double size) {
   std::vector<Stretch> stretches;
-  std::vector<int> index;  // of the piece, or of the fluid side behind all pieces
+  std::vector<int> index;  // of the piece, or of the wet side behind all pieces
   const int pieces = static_cast<int>(cell.pieces.size());
   for (int k = 0; k < pieces; ++k) {
     const Piece& p = cell.pieces[k];
@@ -106,14 +106,14 @@ double common_area(const Polygon& polygon, const Polygon& other, double size) {
   return length(vector_area(common_part(polygon, other, vector_area(other), negligible * size)));
 }
 
-/// In space: convex leaves of the fluid that share faces.
+/// In space: convex leaves of the wet part that share faces.
 class LeafParts {
  public:
   LeafParts(const Outline& outline, const CutCell& cell, double size)
       : outline_(outline),
         cell_(cell),
         size_(size),
-        leaves_(fluid_leaves(outline, cell, true)),
+        leaves_(wet_leaves(outline, cell, true)),
         sets_(static_cast<int>(leaves_.size())) {
     const int n = static_cast<int>(leaves_.size());
     for (int a = 0; a < n; ++a)
@@ -165,8 +165,8 @@ class LeafParts {
       result.wet_owner.push_back(owner);
     }
   }
-  /// The side of the cell in whose plane a piece lies so that the fluid between them has no thickness, -1
-  /// where there is none. That fluid is a part of its own: it belongs to what lies behind the side.
+  /// The side of the cell in whose plane a piece lies so that the wet part between them has no thickness, -1
+  /// where there is none. That film is a part of its own: it belongs to what lies behind the side.
   [[nodiscard]] int covered_side(const Piece& piece) const {
     for (int s = outline_.first_side[cell_.cell]; s < outline_.first_side[cell_.cell + 1]; ++s) {
       const Vector normal = side_normal(outline_, outline_.sides[s]);
@@ -203,7 +203,7 @@ class LeafParts {
   std::map<int, int> number_;  ///< of the part, by the root of its leaves
 };
 
-/// In space the fluid is worth dividing only where interfaces face each other.
+/// In space the wet part is worth dividing only where interfaces face each other.
 bool may_be_parted(const CutCell& cell) {
   for (const Piece& a : cell.pieces)
     for (const Piece& b : cell.pieces)
@@ -219,7 +219,7 @@ void append(const CutCell& from, const Piece& piece, CutCell& to) {
   to.pieces.push_back(copy);
 }
 
-/// The part on whose fluid face a piece was laid.
+/// The part on whose wet face a piece was laid.
 int nearest_part(const std::vector<CellPart>& parts, const Vector& x) {
   int nearest = 0;
   double least = std::numeric_limits<double>::max();
@@ -238,7 +238,7 @@ int nearest_part(const std::vector<CellPart>& parts, const Vector& x) {
 int largest(const std::vector<CellPart>& parts) {
   return static_cast<int>(std::max_element(parts.begin(), parts.end(),
                                            [](const CellPart& a, const CellPart& b) {
-                                             return a.cut.fluid_volume < b.cut.fluid_volume;
+                                             return a.cut.wet_volume < b.cut.wet_volume;
                                            }) -
                           parts.begin());
 }
@@ -268,7 +268,7 @@ std::vector<CellPart> divide(const Outline& outline, const CutCell& cell, const 
 
 }  // namespace
 
-Vector fluid_centre(int dimension, const CutCell& cell, const Vector& middle) {
+Vector wet_centre(int dimension, const CutCell& cell, const Vector& middle) {
   double volume = 0, weight = 0;
   Vector moment{}, border{};
   visit_boundary(dimension, cell, [&](const std::array<Vector, 3>& x, double sign) {
@@ -296,7 +296,7 @@ std::vector<CellPart> connected_parts(const Outline& outline, const CutCell& cel
   std::vector<CellPart> parts = divide(outline, cell, assignment);
   for (CellPart& part : parts) {
     measure(outline, part.cut);
-    part.centre = fluid_centre(dim, part.cut, outline.centre(cell.cell));
+    part.centre = wet_centre(dim, part.cut, outline.centre(cell.cell));
   }
   // By a direction that no symmetry of a mesh prefers.
   const Vector direction{1, 0.6180339887, 0.3819660113};
@@ -329,7 +329,7 @@ bool touch(int dimension, const CutCell& first, int first_face, const CutCell& s
 }
 
 bool contains(int dimension, const CutCell& cell, const Vector& x) {
-  if (dimension == 3) return is_in_fluid(cell, x);
+  if (dimension == 3) return is_wet_at(cell, x);
   std::vector<Stretch> boundary;
   visit_boundary(2, cell, [&](const std::array<Vector, 3>& corner, double) {
     boundary.push_back({corner[0], corner[1], true});
@@ -342,7 +342,7 @@ void merge_parts(const Outline& outline, std::vector<CellPart>& parts, int from,
   for (const Piece& piece : parts[from].cut.pieces) append(parts[from].cut, piece, target);
   target.wet.insert(target.wet.end(), parts[from].cut.wet.begin(), parts[from].cut.wet.end());
   measure(outline, target);
-  parts[to].centre = fluid_centre(outline.dimension, target, outline.centre(target.cell));
+  parts[to].centre = wet_centre(outline.dimension, target, outline.centre(target.cell));
   parts.erase(parts.begin() + from);
 }
 

@@ -19,7 +19,7 @@ struct ClipInput {
 
 /// Finds the pieces of some facets in a cell of the plane and where they pass through its sides.
 void clip_segments(const ClipInput& input, std::span<const int> facets, CutCell& cell);
-/// The fluid parts of a plane cell's sides, given how often its vertices are covered by bodies.
+/// The wet parts of a plane cell's sides, given how often its vertices are covered by bodies.
 void find_wet_sides(const ClipInput& input, const std::vector<int>& coverage, CutCell& cell);
 
 /// The same in space, with a cell's edges and triangles in place of its sides.

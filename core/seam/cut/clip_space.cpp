@@ -311,8 +311,8 @@ void FacetClipper::clip(const Facet& facet) {
   link();
 }
 
-/// Signed triangles with the side's vertex 0, between it and the parts of the boundary of the fluid: traces
-/// and the fluid part of the edge opposite. The other two edges pass through vertex 0 and add nothing.
+/// Signed triangles with the side's vertex 0, between it and the parts of the boundary of the wet part:
+/// traces and the wet part of the edge opposite. The other two edges pass through vertex 0 and add nothing.
 class SideFan {
  public:
   SideFan(const Outline& outline, const Side& side, CutCell& cell) : side_(side), cell_(cell) {
@@ -321,8 +321,8 @@ class SideFan {
   }
 
   void add(const std::vector<int>& coverage, int s) {
-    const int fluid = 1 - coverage[side_.vertex[1]];
-    if (fluid != 0) triangle(corner_[1], corner_[2], fluid);
+    const int wet = 1 - coverage[side_.vertex[1]];
+    if (wet != 0) triangle(corner_[1], corner_[2], wet);
     for (const Crossing& x : cell_.crossings)
       if (x.place == side_.edge[1]) triangle(x.position, corner_[2], -x.step * side_.forward[1]);
     for (const Trace& t : cell_.traces)

@@ -50,8 +50,8 @@ std::vector<int> spread(const Mesh& mesh, const Outline& outline, const std::vec
           front.push_back(other);
         } else if (coverage[other] != value) {
           throw Error(
-              fmt::format("the surfaces that cut mesh '{}' are not closed inside of it: near ({}) body and "
-                          "fluid lie on the "
+              fmt::format("the surfaces that cut mesh '{}' are not closed inside of it: near ({}) inside and "
+                          "outside lie on the "
                           "same side; let open surfaces end outside the mesh or on its boundary",
                           mesh.name(), fmt::join(outline.position[v], ", ")));
         }

@@ -16,9 +16,9 @@ class Coverage {
   Coverage(const Mesh& mesh, const Outline& outline, const std::vector<LatticePoint>& vertex,
            const Facets& facets, const std::vector<CutCell>& cells, bool united);
 
-  /// [vertex]: how many bodies cover it, 0 in the fluid.
+  /// [vertex]: how many bodies cover it, 0 in the wet part.
   [[nodiscard]] const std::vector<int>& count() const { return count_; }
-  /// Whether a cut cell's fluid part is more than the outside of one body whose own parts do not overlap.
+  /// Whether a cut cell's wet part is more than the outside of one body whose own parts do not overlap.
   [[nodiscard]] bool overlap_in(const Outline& outline, const CutCell& cell) const;
   /// [body][vertex]; a single entry when the facets were united before.
   [[nodiscard]] const std::vector<std::vector<int>>& windings() const { return windings_; }

@@ -85,7 +85,7 @@ bool are_apart(const Facets& facets, std::span<const Surface> bodies) {
 }  // namespace
 
 CutMesh::CutMesh(const Mesh& mesh)
-    : mesh_(&mesh), state_(mesh.cells(), CellState::fluid), geometry_(std::make_unique<Geometry>(mesh)) {
+    : mesh_(&mesh), state_(mesh.cells(), CellState::wet), geometry_(std::make_unique<Geometry>(mesh)) {
   geometry_->index.assign(mesh.cells(), -1);
 }
 
@@ -108,7 +108,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
                           dim == 2 || are_apart(g.facets, bodies));
   for (int c = 0; c < mesh_->cells(); ++c) {
     const int vertex = g.outline.sides[g.outline.first_side[c]].vertex[0];
-    state_[c] = coverage.count()[vertex] > 0 ? CellState::body : CellState::fluid;
+    state_[c] = coverage.count()[vertex] > 0 ? CellState::body : CellState::wet;
   }
   for (CutCell& c : g.cells) {
     if (dim == 2)
@@ -131,7 +131,7 @@ void CutMesh::adopt_ghost_states() {
   std::vector<int> missed;
   g.ghosts.update([&](int c) { return static_cast<int>(state_[c]); },
                   [&](int c, int value) {
-                    if (static_cast<CellState>(value) == CellState::cut && state_[c] == CellState::fluid)
+                    if (static_cast<CellState>(value) == CellState::cut && state_[c] == CellState::wet)
                       missed.push_back(c);
                   });
   for (const int c : missed) {
@@ -164,7 +164,7 @@ const std::vector<CellPart>& CutMesh::Geometry::parts_of(int cell) const {
   return parts.empty() || index[cell] < 0 ? none : parts[index[cell]];
 }
 
-double CutMesh::fluid_volume(int cell, int part) const { return geometry_->at(cell, part).fluid_volume; }
+double CutMesh::wet_volume(int cell, int part) const { return geometry_->at(cell, part).wet_volume; }
 double CutMesh::cell_volume(int cell) const { return geometry_->at(cell).volume; }
 double CutMesh::interface_area(int cell, int part) const { return geometry_->at(cell, part).interface_area; }
 

@@ -7,15 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "seam/cut/fluid_parts.hpp"
 #include "seam/cut/interface_motion.hpp"
 #include "seam/cut/surface.hpp"
+#include "seam/cut/wet_parts.hpp"
 #include "seam/mesh/mesh.hpp"
 
 namespace seam {
 
 /// Where a background cell lies: wholly outside all bodies, wholly inside them, or partly.
-enum class CellState : char { fluid, body, cut };
+enum class CellState : char { wet, body, cut };
 
 /// Points and weights on a part of a cell. Weights are physical measures: they add up to the part's volume,
 /// or to its area. Those of a volume or of a face may be negative and their points may lie inside a body:
@@ -30,23 +30,23 @@ struct CutRule {
 /// Points on the interface in one cell, split at facet and at cell borders.
 struct InterfaceRule : CutRule {
   std::vector<double> position;         ///< [point][dimension], m
-  std::vector<double> normal;           ///< [point][dimension], out of the fluid: into the body
+  std::vector<double> normal;           ///< [point][dimension], out of the wet part: into the body
   std::vector<int> body, facet;         ///< [point]
   std::vector<double> facet_reference;  ///< [point][dimension - 1], the facet's own coordinates: vertex 0 is
                                         ///< the origin, vertices 1 and 2 the unit points
 };
 
-/// The boundary of the fluid part of a cell. In the plane: its outlines, counter-clockwise, holes clockwise.
+/// The boundary of the wet part of a cell. In the plane: its outlines, counter-clockwise, holes clockwise.
 /// In space: the faces of its polyhedron, counter-clockwise seen from outside.
-struct FluidShape {
+struct WetShape {
   std::vector<double> points;  ///< [point][dimension], m; polygons behind each other
   std::vector<int> first;      ///< [polygon + 1]: its first point
   [[nodiscard]] int count() const { return static_cast<int>(first.size()) - 1; }
 };
 
-/// The fluid part of a mesh from which bodies are cut out. The fluid lies outside all bodies; the interface
-/// is exactly its boundary. For every cut cell, to rounding: fluid part + body part = cell; the areas of the
-/// interface and of the fluid parts of the cell's faces add up to zero as vectors; polynomials up to the
+/// The wet part of a mesh from which bodies are cut out. The wet part lies outside all bodies; the interface
+/// is exactly its boundary. For every cut cell, to rounding: wet part + body part = cell; the areas of the
+/// interface and of the wet parts of the cell's faces add up to zero as vectors; polynomials up to the
 /// degree asked for are integrated exactly.
 class CutMesh {
  public:
@@ -58,23 +58,23 @@ class CutMesh {
   /// finite, or an outline that should be closed and is not, naming body and facet
   void cut(std::span<const Surface> bodies);
 
-  /// All parts of the fluid in a cell together.
+  /// All wet parts of a cell together.
   static constexpr int all_parts = -1;
-  /// Tells the connected parts of the fluid within each cell apart, until the next cut() or drop(). A part
-  /// that no neighbour's fluid touches stays with the largest one of its cell, and in space all fluid of a
-  /// cell that is not affine is one part. Collective.
+  /// Tells the connected wet parts within each cell apart, until the next cut() or drop(). A part
+  /// that no neighbour's wet part touches stays with the largest one of its cell, and in space all that is
+  /// wet of a cell that is not affine is one part. Collective.
   void separate_parts();
-  /// Number of parts of the fluid in a cell: 1 unless they are told apart, also in a body.
+  /// Number of wet parts of a cell: 1 unless they are told apart, also in a body.
   [[nodiscard]] int parts(int cell) const;
-  /// Middle of the fluid in a part of a cell, m.
+  /// Middle of a wet part of a cell, m.
   [[nodiscard]] std::array<double, 3> part_centre(int cell, int part) const;
   /// Middle of a whole cell, m.
   [[nodiscard]] std::array<double, 3> cell_centre(int cell) const;
-  /// Whether a point of a cell lies in a part of the fluid.
+  /// Whether a point of a cell lies in a wet part.
   [[nodiscard]] bool holds(int cell, int part, const std::array<double, 3>& position) const;
   /// The part that holds a point of a cell; the nearest one for a point of a body.
   [[nodiscard]] int part_at(int cell, const std::array<double, 3>& position) const;
-  /// Parts (of the cell, of its neighbour behind a face) whose fluid is in touch across the face.
+  /// Parts (of the cell, of its neighbour behind a face) whose wet part is in touch across the face.
   [[nodiscard]] std::vector<std::pair<int, int>> joined(int cell, int face) const;
   /// The local cell behind a face, -1 where there is none.
   [[nodiscard]] int neighbour(int cell, int face) const;
@@ -84,12 +84,12 @@ class CutMesh {
   [[nodiscard]] CellState state(int cell) const { return state_[cell]; }
   /// Local cells that are cut, ascending.
   [[nodiscard]] const std::vector<int>& cut_cells() const { return cut_cells_; }
-  /// Volume of the fluid part and of a whole cell, and area of the interface in it. The cell must be cut.
-  [[nodiscard]] double fluid_volume(int cell, int part = all_parts) const;
+  /// Volume of the wet part and of a whole cell, and area of the interface in it. The cell must be cut.
+  [[nodiscard]] double wet_volume(int cell, int part = all_parts) const;
   [[nodiscard]] double cell_volume(int cell) const;
   [[nodiscard]] double interface_area(int cell, int part = all_parts) const;
 
-  /// Rule for the fluid part of a cut cell, empty for one inside a body; exact for monomials with each
+  /// Rule for the wet part of a cut cell, empty for one inside a body; exact for monomials with each
   /// exponent up to `degree` in the coordinates of an affine cell.
   /// @param part of those that separate_parts() told apart
   void volume_rule(int cell, int degree, CutRule& rule, int part = all_parts) const;
@@ -97,23 +97,23 @@ class CutMesh {
   /// @param motion where not null: how the rule changes as facets move
   void interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion = nullptr,
                       int part = all_parts) const;
-  /// Rule for the fluid part of one face of a cut cell; empty where the face is dry, or the cell is a
+  /// Rule for the wet part of one face of a cut cell; empty where the face is dry, or the cell is a
   /// body's.
   void face_rule(int cell, int face, int degree, CutRule& rule, int part = all_parts) const;
 
   /// For pictures. The cell must be cut.
-  void fluid_shape(int cell, FluidShape& shape, int part = all_parts) const;
-  /// For pictures: triangles or tetrahedra of which the fluid part of a cut cell consists, positively
+  void wet_shape(int cell, WetShape& shape, int part = all_parts) const;
+  /// For pictures: triangles or tetrahedra of which the wet part of a cut cell consists, positively
   /// oriented. In the plane they are as fine as the outline and share its points with neighbours.
   /// @param corners [simplex][dimension + 1][dimension], m
-  void fluid_simplices(int cell, std::vector<double>& corners, int part = all_parts) const;
+  void wet_simplices(int cell, std::vector<double>& corners, int part = all_parts) const;
 
   /// Collective.
-  [[nodiscard]] FluidParts find_parts() const;
+  [[nodiscard]] WetParts find_parts() const;
   /// Turns local cells into body, as those of parts that are too small. Collective; ghosts must be listed on
   /// every rank, and the cells should make up whole parts: then no interface is left over. Holds until the
   /// next cut().
-  /// @return the fluid's volume dropped on all ranks, m^d
+  /// @return the wet volume dropped on all ranks, m^d
   double drop(const std::vector<int>& cells);
 
  private:

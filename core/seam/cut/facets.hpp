@@ -42,7 +42,7 @@ int crossing(const Facets& facets, const Facet& facet, const LatticePoint& a, co
 
 /// Winding number of a body about a vertex of the mesh: positive inside. Visits all facets.
 int winding(const Facets& facets, int body, const LatticePoint& vertex);
-/// 1 where a vertex of the mesh is covered by a body, 0 in the fluid, when no facet lies in another body.
+/// 1 where a vertex of the mesh is covered by a body, 0 in the wet part, when no facet lies in another body.
 /// Visits all facets.
 int coverage_at(const Facets& facets, const LatticePoint& vertex);
 

@@ -97,7 +97,7 @@ void FieldCut::check_motion(const PartLayout& before) const {
   }
   if (most > 0.5 * mesh.communicator().min(width))
     throw StepRefused(
-        fmt::format("field '{}': a body that parts the fluid in its cells moves by {:.3g} m in one "
+        fmt::format("field '{}': a body that divides its cells moves by {:.3g} m in one "
                     "step, more than half a cell; the step is too long for its motion",
                     field_->name(), most));
 }
@@ -133,7 +133,7 @@ double FieldCut::trace_size(int cell) const {
 }
 
 /// Per part.
-std::vector<char> FieldCut::open_parts(const FluidParts& parts) const {
+std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
   std::vector<double> faces(parts.volume.size(), 0.0);
   CutRule rule;
   for (const std::string& name : open_boundaries_)
@@ -154,7 +154,7 @@ std::vector<char> FieldCut::open_parts(const FluidParts& parts) const {
 
 /// The cells to be dropped, and for later cuts what becomes of all others.
 std::vector<int> FieldCut::decide() {
-  const FluidParts parts = mesh_.find_parts();
+  const WetParts parts = mesh_.find_parts();
   const std::vector<char> open = open_parts(parts);
   std::vector<int> cells;
   decision_.assign(field_->mesh().cells(), Decision::body);
@@ -171,7 +171,7 @@ std::vector<int> FieldCut::decide() {
 /// Cells that were dropped, also where a body has opened them to a kept part; and all of a part that has
 /// moved on from dropped cells, or is new and small. No known state would reach it.
 std::vector<int> FieldCut::follow_decision() const {
-  const FluidParts parts = mesh_.find_parts();
+  const WetParts parts = mesh_.find_parts();
   const std::vector<char> open = open_parts(parts);
   std::vector<double> kept(parts.volume.size(), 0.0), dropped(parts.volume.size(), 0.0);
   for (int c = 0; c < field_->mesh().owned_cells(); ++c) {

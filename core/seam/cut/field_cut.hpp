@@ -20,7 +20,7 @@ namespace seam {
 /// their own (PartLayout), and states follow the parts.
 ///
 /// Connected parts of less than two cells' volume are no part of the field: neither could the mesh resolve
-/// what goes on in them, nor would a body that closes them let an incompressible fluid go. Those that reach
+/// what goes on in them, nor would a body that closes them let what is incompressible go. Those that reach
 /// an open boundary stay. The first cut of a step decides; whatever it keeps stays for the step, and what it
 /// drops stays out, also where it creeps into cells that were body.
 class FieldCut {
@@ -67,7 +67,7 @@ class FieldCut {
   void choose_sets();
   void check_motion(const PartLayout& before) const;
   void accept_states(bool at_start);
-  [[nodiscard]] std::vector<char> open_parts(const FluidParts& parts) const;
+  [[nodiscard]] std::vector<char> open_parts(const WetParts& parts) const;
   [[nodiscard]] std::vector<int> decide();
   [[nodiscard]] std::vector<int> follow_decision() const;
   Field* field_;

@@ -22,7 +22,7 @@ struct Piece {
       false;  ///< stems from a neighbour too thin to be kept; no part of the cell's own boundary
 };
 
-/// A signed part of one side of a cell; all of them add up to the side's fluid part.
+/// A signed part of one side of a cell; all of them add up to the side's wet part.
 struct WetPart {
   int face;
   Vector normal;                 ///< unit, of the side, out of the cell
@@ -55,23 +55,23 @@ struct CutCell {
   std::vector<Crossing> crossings;
   std::vector<Trace> traces;
   std::vector<int> facets;  ///< of Facets, that may meet the cell
-  bool united = false;      ///< fluid parts of faces are triangles that do not overlap
+  bool united = false;      ///< wet parts of faces are triangles that do not overlap
   unsigned dry_faces = 0;   ///< bit f: what lies behind face f was too thin to be kept
-  double fluid_volume = 0, volume = 0, interface_area = 0;
+  double wet_volume = 0, volume = 0, interface_area = 0;
 };
 
-/// One of several connected parts of the fluid in a cell.
+/// One of several connected wet parts of a cell.
 struct CellPart {
-  CutCell cut;      ///< its own pieces and fluid faces
+  CutCell cut;      ///< its own pieces and wet faces
   Vector centre{};  ///< of its volume
 };
 
 /// Vector area of a part: of a simplex in the direction of its orientation (in the plane to the right).
 Vector vector_area(int dimension, const Vector& a, const Vector& b, const Vector& c);
-/// Vector area of a piece, out of the fluid.
+/// Vector area of a piece, out of the wet part.
 Vector vector_area(int dimension, const CutCell& cell, const Piece& piece);
 
-/// Calls visit(corners, sign) for planar simplices that bound the cell's fluid part; times the sign they are
+/// Calls visit(corners, sign) for planar simplices that bound the cell's wet part; times the sign they are
 /// oriented outward.
 template <class Visit>
 void visit_boundary(int dimension, const CutCell& cell, const Visit& visit) {
@@ -99,7 +99,7 @@ struct CutMesh::Geometry {
   std::vector<Surface> bodies;
   cutting::Facets facets;
   std::vector<cutting::LatticePoint> vertex;  ///< of the outline
-  std::vector<int> coverage;                  ///< [vertex]: 0 in the fluid
+  std::vector<int> coverage;                  ///< [vertex]: 0 in the wet part
   std::vector<cutting::CutCell> cells;        ///< ascending
   std::vector<int> index;                     ///< [cell]: into cells, -1 for others
   /// [index]: several connected parts, or none where there is one; empty when they are not told apart.

@@ -15,7 +15,7 @@ namespace {
 constexpr int bits = 2;  ///< for the number of a set: at most 4
 constexpr int per_word = 15;
 
-/// Orders the sets of a node: first that in whose fluid it lies, which alone has number 0, then those that
+/// Orders the sets of a node: first that in whose wet part it lies, which alone has number 0, then those that
 /// undivided cells use, by the lowest number of a cell.
 struct Key {
   bool apart = true;  ///< the node lies elsewhere

@@ -31,10 +31,10 @@ class PartSets {
 /// In Block::known, until the states are extended.
 constexpr char known_if_needed = 2;
 
-/// Brings states to the sets that the same parts of the fluid use now: a new set takes over from that one of
+/// Brings states to the sets that the same wet parts use now: a new set takes over from that one of
 /// the node which the parts around it used before, by their volume; a part is recognised in its cell by its
 /// centre. Sets that take over from none are not known afterwards. A set that finds its own taken gets the
-/// same states marked `known_if_needed`: fluid that comes apart had the same functions everywhere, but fluid
+/// same states marked `known_if_needed`: what comes apart had the same functions everywhere, but what
 /// that a body has swept into a cell had others. Collective.
 /// @param cut how bodies cut the field now
 void carry_over(Field& field, const PartLayout& before, const PartLayout& now, const CutMesh& cut);

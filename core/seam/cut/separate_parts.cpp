@@ -29,7 +29,7 @@ void merge_marked(const Outline& outline, unsigned marked, std::vector<CellPart>
     if ((marked >> p & 1U) == 0) continue;
     int largest = -1;
     for (int q = 0; q < static_cast<int>(parts.size()); ++q)
-      if (q != p && (largest < 0 || parts[q].cut.fluid_volume > parts[largest].cut.fluid_volume)) largest = q;
+      if (q != p && (largest < 0 || parts[q].cut.wet_volume > parts[largest].cut.wet_volume)) largest = q;
     merge_parts(outline, parts, p, largest);
   }
   if (parts.size() == 1) parts.clear();
@@ -64,14 +64,14 @@ int CutMesh::parts(int cell) const { return std::max(1, static_cast<int>(geometr
 std::array<double, 3> CutMesh::part_centre(int cell, int part) const {
   if (parts(cell) > 1) return geometry_->parts_of(cell)[part].centre;
   const Vector middle = geometry_->outline.centre(cell);
-  return state_[cell] == CellState::cut ? fluid_centre(mesh_->dimension(), geometry_->at(cell), middle)
+  return state_[cell] == CellState::cut ? wet_centre(mesh_->dimension(), geometry_->at(cell), middle)
                                         : middle;
 }
 
 std::array<double, 3> CutMesh::cell_centre(int cell) const { return geometry_->outline.centre(cell); }
 
 bool CutMesh::holds(int cell, int part, const std::array<double, 3>& position) const {
-  if (state_[cell] != CellState::cut) return state_[cell] == CellState::fluid;
+  if (state_[cell] != CellState::cut) return state_[cell] == CellState::wet;
   return contains(mesh_->dimension(), geometry_->at(cell, part), position);
 }
 
@@ -105,9 +105,9 @@ bool CutMesh::are_joined(int cell, int part, int face, int other, int other_part
   const int dim = mesh_->dimension();
   const double size = std::pow(geometry_->outline.volume(cell), 1.0 / dim);
   const double least = smallest_opening * std::pow(size, dim - 1);
-  // Of a part, or of all fluid in the cell.
+  // Of a part, or of all that is wet in the cell.
   const auto is_wet = [&](int c, int p, int f) {
-    return state_[c] == CellState::fluid || wet_area(geometry_->at(c, p), f) > least;
+    return state_[c] == CellState::wet || wet_area(geometry_->at(c, p), f) > least;
   };
   if (!is_wet(cell, part, face) || !is_wet(other, other_part, other_face)) return false;
   if (parts(cell) == 1 || parts(other) == 1) return true;

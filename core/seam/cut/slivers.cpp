@@ -16,7 +16,7 @@ int face_towards(const Outline& outline, int cell, int other) {
   return -1;
 }
 
-/// For a face that no piece of the sliver is opposite to: its largest fluid part, with the area of all,
+/// For a face that no piece of the sliver is opposite to: its largest wet part, with the area of all,
 /// closes the receiver.
 void lay_face(int dimension, const CutCell& sliver, int face, const Vector& outward, CutCell& receiver) {
   const WetPart* largest = nullptr;
@@ -32,7 +32,7 @@ void lay_face(int dimension, const CutCell& sliver, int face, const Vector& outw
                              1 / area * outward, area / largest->area, true});
 }
 
-/// Lays the pieces of a sliver onto one of its fluid faces.
+/// Lays the pieces of a sliver onto one of its wet faces.
 /// @param outward vector area of that face out of the receiving cell: along the receiver's normal
 void hand_over(int dimension, const CutCell& sliver, int face, const Vector& outward, CutCell& receiver) {
   const double area = length(outward);
@@ -101,16 +101,16 @@ class Settlement {
   }
 
   [[nodiscard]] CellState decide(const CutCell& c) const {
-    if (c.fluid_volume < smallest_part * c.volume) return CellState::body;
+    if (c.wet_volume < smallest_part * c.volume) return CellState::body;
     const double size = std::pow(c.volume, (outline_.dimension - 1.0) / outline_.dimension);
-    return c.interface_area < smallest_part * size ? CellState::fluid : CellState::cut;
+    return c.interface_area < smallest_part * size ? CellState::wet : CellState::cut;
   }
 
   void clear(std::size_t sliver) {
     const int cell = cells_[sliver].cell;
     for (int f = 0; f < 8; ++f) {
       const int other = outline_.neighbour[cell][f];
-      if (other < 0 || state_[other] == CellState::body || length(fluid_area(cells_[sliver], f)) == 0)
+      if (other < 0 || state_[other] == CellState::body || length(wet_face_area(cells_[sliver], f)) == 0)
         continue;
       if (!index_.contains(other)) {
         index_[other] = cells_.size();
@@ -119,7 +119,7 @@ class Settlement {
       CutCell& receiver = cells_[index_[other]];
       // What the receiver loses, not what the sliver has: so its boundary stays closed to the last digit.
       const int face = face_towards(outline_, other, cell);
-      const Vector lost = fluid_area(receiver, face);
+      const Vector lost = wet_face_area(receiver, face);
       if (length(lost) == 0) continue;
       state_[other] = CellState::cut;
       receiver.dry_faces |= 1U << face;
@@ -127,7 +127,7 @@ class Settlement {
     }
   }
 
-  static Vector fluid_area(const CutCell& cell, int face) {
+  static Vector wet_face_area(const CutCell& cell, int face) {
     Vector sum{};
     for (const WetPart& w : cell.wet)
       if (w.face == face) sum = sum + w.area * w.normal;
@@ -158,10 +158,10 @@ void measure(const Outline& outline, CutCell& cell) {
   const int dim = outline.dimension;
   const Vector centre = outline.centre(cell.cell);
   cell.volume = outline.volume(cell.cell);
-  cell.fluid_volume = 0;
+  cell.wet_volume = 0;
   cell.interface_area = 0;
   visit_boundary(dim, cell, [&](const std::array<Vector, 3>& x, double sign) {
-    cell.fluid_volume += sign / dim * dot(x[0] - centre, vector_area(dim, x[0], x[1], x[2]));
+    cell.wet_volume += sign / dim * dot(x[0] - centre, vector_area(dim, x[0], x[1], x[2]));
   });
   for (const Piece& p : cell.pieces) cell.interface_area += length(vector_area(dim, cell, p));
 }

@@ -46,7 +46,7 @@ class Union {
   }
 
  private:
-  /// Whether the left and the right of a group, from its first vertex to the second, are fluid.
+  /// Whether the left and the right of a group, from its first vertex to the second, are wet.
   struct Sides {
     bool left, right;
   };
@@ -148,23 +148,23 @@ Union::Sides Union::sides(const Group& group) const {
     const int along = f.vertex[0] == group.vertex[0] ? 1 : -1;
     other[f.body] -= side * along;
   }
-  const auto fluid = [](const std::vector<int>& w) {
+  const auto wet = [](const std::vector<int>& w) {
     return std::all_of(w.begin(), w.end(), [](int n) { return n <= 0; });
   };
-  return side > 0 ? Sides{fluid(here), fluid(other)} : Sides{fluid(other), fluid(here)};
+  return side > 0 ? Sides{wet(here), wet(other)} : Sides{wet(other), wet(here)};
 }
 
 std::vector<int> Union::choose() {
   std::vector<int> kept;
   for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
     if (visited_[g] != 0) continue;
-    const Sides fluid = sides(groups_[g]);
+    const Sides wet = sides(groups_[g]);
     const std::vector<Walk> chain = chain_through(g);
-    arranged_.all_covered = !fluid.left;
-    if (fluid.left == fluid.right) continue;
+    arranged_.all_covered = !wet.left;
+    if (wet.left == wet.right) continue;
     for (const Walk& walk : chain) {
       // The body lies to the left of a facet.
-      const int start = groups_[walk.group].vertex[walk.forward == fluid.right ? 0 : 1];
+      const int start = groups_[walk.group].vertex[walk.forward == wet.right ? 0 : 1];
       const auto& members = groups_[walk.group].members;
       const auto member = std::find_if(members.begin(), members.end(),
                                        [&](int s) { return arranged_.list[s].vertex[0] == start; });

@@ -6,7 +6,7 @@
 namespace seam::cutting {
 
 /// Replaces the facets by the boundary of the union of all bodies in the plane: facets, or their parts, that
-/// have fluid on one side and a body on the other. Facets are split where they meet, at points of the
+/// have a body on one side only. Facets are split where they meet, at points of the
 /// lattice, and each kind of part is tested exactly once. A point is covered when the winding number of any
 /// body is positive there.
 void unite_in_plane(Facets& facets);

@@ -28,7 +28,7 @@ struct Node {
   std::unique_ptr<Node> front, back;
   // Leaves only:
   Convex part;
-  bool fluid = false;
+  bool wet = false;
 };
 
 class CellUnion {
@@ -78,7 +78,7 @@ class CellUnion {
   [[nodiscard]] bool is_wide(const Polygon& polygon) const;
   void add_part(const Convex& part);
   std::unique_ptr<Node> divide(const Convex& part, std::vector<Fragment> fragments, const Places& places);
-  [[nodiscard]] bool is_fluid(const Convex& part, const Places& places) const;
+  [[nodiscard]] bool is_wet_part(const Convex& part, const Places& places) const;
   std::unique_ptr<Node> divide_at(const Node& node, const Convex& part, std::vector<Fragment> fragments,
                                   const Places& before, bool in_front);
   std::unique_ptr<Node> divide_layer(const Vector& normal, const Convex& part,
@@ -189,7 +189,7 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
     return node;
   }
   node->part = part;
-  node->fluid = is_fluid(part, places);
+  node->wet = is_wet_part(part, places);
   return node;
 }
 
@@ -261,7 +261,7 @@ CellUnion::Places CellUnion::places_after(const Node& node, const std::vector<Fr
   return places;
 }
 
-bool CellUnion::is_fluid(const Convex& part, const Places& places) const {
+bool CellUnion::is_wet_part(const Convex& part, const Places& places) const {
   const LatticePoint middle = input_.facets.lattice.round(centre(part));
   for (int body = 0; body < static_cast<int>(windings_.size()); ++body) {
     if (places[body] != Place::unknown && !overlaps_itself_[body]) {
@@ -289,7 +289,7 @@ void CellUnion::find_overlaps() {
 
 void CellUnion::collect(const Node& node, std::vector<const Node*>& ancestors) {
   if (!node.front) {
-    if (node.fluid) add_leaf(node, ancestors);
+    if (node.wet) add_leaf(node, ancestors);
     return;
   }
   ancestors.push_back(&node);
@@ -302,7 +302,7 @@ void CellUnion::collect(const Node& node, std::vector<const Node*>& ancestors) {
 void CellUnion::against_body(const Node& node, const Polygon& polygon, std::vector<Polygon>& parts) {
   if (polygon.empty()) return;
   if (!node.front) {
-    if (!node.fluid) parts.push_back(polygon);
+    if (!node.wet) parts.push_back(polygon);
     return;
   }
   Polygon front, back;
@@ -345,7 +345,7 @@ void CellUnion::add_interface(const Polygon& polygon, const Node& node) {
   std::vector<std::pair<Polygon, int>> parts;
   for (const Fragment& f : node.in_plane) {
     const Vector normal = cell_.pieces[f.piece].normal;
-    if (dot(normal, out) <= 0) continue;  // turned away from the fluid
+    if (dot(normal, out) <= 0) continue;  // turned away from the wet part
     const Polygon common = common_part(polygon, f.corner, -1 * normal, resolution_);
     const double share = dot(vector_area(common), out);
     if (share <= 1e-14 * whole) continue;

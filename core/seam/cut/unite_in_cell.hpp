@@ -8,8 +8,8 @@
 
 namespace seam::cutting {
 
-/// Replaces the pieces and the fluid faces of a cell in space that several bodies reach, or one body twice,
-/// by those of the fluid outside all of them. The cell is divided along the facets into convex parts, each
+/// Replaces the pieces and the wet faces of a cell in space that several bodies reach, or one body twice,
+/// by those of the wet part outside all of them. The cell is divided along the facets into convex parts, each
 /// wholly inside or outside of every body. Parts too thin to matter stem from bodies that touch: a gap or
 /// overlap below 1e-12 of the cell's size is none.
 /// @param windings [body][vertex of the outline]

@@ -89,7 +89,7 @@ bool Field::is_covered(int cell) const {
 }
 
 bool Field::is_cut(int cell) const {
-  return cut_ && active_cells_[cell] && cut_->state(cell) != CellState::fluid;
+  return cut_ && active_cells_[cell] && cut_->state(cell) != CellState::wet;
 }
 
 }  // namespace seam

@@ -6,10 +6,10 @@
 
 namespace seam {
 
-/// Which sets of unknowns the parts of a field's cells use, where bodies part the fluid in a cell or around a
-/// node (thesis Remark 3.2). The parts of cells around a node that are connected there through faces share
+/// Which sets of unknowns the parts of a field's cells use, where bodies divide a cell or what is around
+/// a node (thesis Remark 3.2). The parts of cells around a node that are connected there through faces share
 /// one set. The sets of a node are numbered from 0, by where they lie and by nothing of the past: set 0
-/// is that of the fluid in which the node itself lies, or the only one.
+/// is that of the wet part in which the node itself lies, or the only one.
 struct PartLayout {
   /// A part of a cell that has several, or whose nodes are not all of set 0.
   struct Part {

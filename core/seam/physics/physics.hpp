@@ -86,7 +86,7 @@ class Physics {
  public:
   virtual ~Physics() = default;
   [[nodiscard]] virtual Support support() const { return Support::mesh; }
-  /// Whether fluid, or whatever the field is, on two sides of a thin body has unknowns of its own on each
+  /// Whether the field on two sides of a thin body has unknowns of its own on each
   /// (PartLayout).
   [[nodiscard]] virtual bool separates_parts() const { return false; }
   /// May be empty: a body with given motion.

@@ -89,7 +89,7 @@ ClippedCells::ClippedCells(const Field& field, const Space& space) : space_(&spa
         numbers = PointNumbers(resolution);
         add_nodes(nodes);
       }
-      cut.fluid_simplices(c, corners, part);
+      cut.wet_simplices(c, corners, part);
       const CellMap map(mesh, c);
       for (std::size_t k = 0; k < corners.size(); k += dim) {
         const Vector x = vector_of(&corners[k], dim);

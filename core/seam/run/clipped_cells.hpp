@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// The fluid parts of the cut cells that this rank owns, as linear triangles or tetrahedra for pictures.
+/// The wet parts of the cut cells that this rank owns, as linear triangles or tetrahedra for pictures.
 /// Corners of neighbouring cells that coincide are one point, and so are corners and nodes of the space;
 /// where parts of cells may have unknowns of their own, only those of a part are.
 struct ClippedCells {

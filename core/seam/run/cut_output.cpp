@@ -29,7 +29,7 @@ VtuPiece cells_piece(const Field& field) {
   VtuPiece piece;
   piece.dimension = mesh.dimension();
   piece.type = mesh.type();
-  VtuArray cell{"cell", 1, {}, {}}, state{"state", 1, {}, {}}, fluid{"fluid", 1, {}, {}},
+  VtuArray cell{"cell", 1, {}, {}}, state{"state", 1, {}, {}}, wet{"wet", 1, {}, {}},
       parts{"parts", 1, {}, {}};
   std::vector<int> vertices(topology(mesh.type()).vertices);
   std::iota(vertices.begin(), vertices.end(), 0);
@@ -39,9 +39,9 @@ VtuPiece cells_piece(const Field& field) {
     const bool is_cut = field.is_cut(c), is_active = field.active_cells()[c] != 0;
     state.values.push_back(is_cut ? 1 : is_active ? 0 : 2);
     parts.values.push_back(is_active ? field.parts(c) : 0);
-    fluid.values.push_back(is_cut ? cut.fluid_volume(c) / cut.cell_volume(c) : is_active ? 1 : 0);
+    wet.values.push_back(is_cut ? cut.wet_volume(c) / cut.cell_volume(c) : is_active ? 1 : 0);
   }
-  piece.cell_arrays = {std::move(cell), std::move(state), std::move(fluid), std::move(parts)};
+  piece.cell_arrays = {std::move(cell), std::move(state), std::move(wet), std::move(parts)};
   return piece;
 }
 

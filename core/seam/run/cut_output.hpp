@@ -10,7 +10,7 @@
 namespace seam {
 
 /// Writes how bodies cut the fields' meshes, three time series per field that is cut:
-/// - FIELD-cells: all background cells with their state and the share of them that is fluid;
+/// - FIELD-cells: all background cells with their state and the share of them that is wet;
 /// - FIELD-interface: the points at which the interface is integrated;
 /// - FIELD-ghost_faces: the faces that the ghost penalty holds together.
 class CutOutput {

@@ -69,7 +69,7 @@ void leave_out_unused_points(VtuPiece& piece) {
   for (VtuArray& array : piece.point_arrays) keep(array.values, array.components);
 }
 
-/// The active cells: whole ones, and the fluid parts of cut ones. The array "cell" tells which parts belong
+/// The active cells: whole ones, and the wet parts of cut ones. The array "cell" tells which parts belong
 /// together.
 VtuPiece field_piece(const FieldEntry& entry, const Space& space, const TimePoint& at) {
   const Field& field = *entry.field;

@@ -86,7 +86,7 @@ void Problem::finish(double time, bool shape_derivatives) {
 }
 
 /// Unknowns have the rates that couplings read, whatever their physics needs: a body without mass has a
-/// velocity where it meets a fluid.
+/// velocity where it meets another field.
 void Problem::carry_rates() {
   for (const auto& [domain, terms] : domains_) {
     const std::vector<Field*> fields = domain->fields();
@@ -160,7 +160,7 @@ void Problem::initialise(double time, bool impose_prescribed) {
       for (std::size_t i = 0; i < block.prescribed.size(); ++i)
         if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
       block.old = block.now;
-      // The initial values are those at the node itself, which lies in the fluid of its set 0.
+      // The initial values are those at the node itself, which lies in the wet part of its set 0.
       for (int n = 0; n < block.space->nodes(); ++n) block.known[n] = block.space->set_of(n) == 0 ? 1 : 0;
       entry.field->set_layout(nullptr);
     }

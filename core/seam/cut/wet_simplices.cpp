@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "seam/cut/cell_map.hpp"
-#include "seam/cut/fluid_leaves.hpp"
 #include "seam/cut/geometry.hpp"
 #include "seam/cut/triangulate.hpp"
+#include "seam/cut/wet_leaves.hpp"
 
 namespace seam {
 namespace {
@@ -24,16 +24,16 @@ void append_tetrahedra(const Convex& part, std::vector<double>& corners) {
 
 }  // namespace
 
-void CutMesh::fluid_simplices(int cell, std::vector<double>& corners, int part) const {
+void CutMesh::wet_simplices(int cell, std::vector<double>& corners, int part) const {
   corners.clear();
   const CutCell& cut = geometry_->at(cell, part);
   if (mesh_->dimension() == 3) {
-    for (const Convex& leaf : fluid_leaves(geometry_->outline, cut, CellMap(*mesh_, cell).affine()))
+    for (const Convex& leaf : wet_leaves(geometry_->outline, cut, CellMap(*mesh_, cell).affine()))
       append_tetrahedra(leaf, corners);
     return;
   }
-  FluidShape shape;
-  fluid_shape(cell, shape, part);
+  WetShape shape;
+  wet_shape(cell, shape, part);
   std::vector<std::vector<Vector>> outlines(shape.count());
   for (int p = 0; p < shape.count(); ++p)
     for (int k = shape.first[p]; k < shape.first[p + 1]; ++k)

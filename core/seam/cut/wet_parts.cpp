@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seam/cut/fluid_parts.hpp"
+#include "seam/cut/wet_parts.hpp"
 
 #include <algorithm>
 #include <map>
@@ -22,7 +22,7 @@ struct Share {
 }  // namespace
 
 bool CutMesh::is_wet(int cell, int face) const {
-  if (state_[cell] != CellState::cut) return state_[cell] == CellState::fluid;
+  if (state_[cell] != CellState::cut) return state_[cell] == CellState::wet;
   const CutCell& cut = geometry_->at(cell);
   if ((cut.dry_faces >> face & 1U) != 0) return false;
   double area = 0;
@@ -31,7 +31,7 @@ bool CutMesh::is_wet(int cell, int face) const {
   return area > 0;
 }
 
-FluidParts CutMesh::find_parts() const {
+WetParts CutMesh::find_parts() const {
   const auto& neighbour = geometry_->outline.neighbour;
   const int faces = static_cast<int>(topology(mesh_->type()).faces.size());
   DisjointSets sets(mesh_->cells());
@@ -63,7 +63,7 @@ FluidParts CutMesh::find_parts() const {
     if (state_[c] == CellState::body) continue;
     const double whole = geometry_->outline.volume(c);
     Share& share = shares.try_emplace(label[sets.root(c)], Share{label[sets.root(c)], 0, 0}).first->second;
-    share.volume += state_[c] == CellState::cut ? fluid_volume(c) : whole;
+    share.volume += state_[c] == CellState::cut ? wet_volume(c) : whole;
     share.largest = std::max(share.largest, whole);
   }
   std::vector<Share> mine;
@@ -74,7 +74,7 @@ FluidParts CutMesh::find_parts() const {
     share.volume += s.volume;
     share.largest = std::max(share.largest, s.largest);
   }
-  FluidParts parts;
+  WetParts parts;
   std::map<int, int> number;
   for (const auto& [key, share] : shares) {
     number[key] = static_cast<int>(parts.volume.size());
@@ -93,7 +93,7 @@ double CutMesh::drop(const std::vector<int>& cells) {
     if (state_[c] == CellState::body) continue;
     dropped[c] = 1;
     if (c < mesh_->owned_cells())
-      volume += state_[c] == CellState::cut ? fluid_volume(c) : geometry_->outline.volume(c);
+      volume += state_[c] == CellState::cut ? wet_volume(c) : geometry_->outline.volume(c);
   }
   drop_cells(geometry_->outline, dropped, geometry_->cells, state_);
   number_cut_cells();

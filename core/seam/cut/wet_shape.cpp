@@ -36,12 +36,12 @@ std::vector<Loop> link(std::vector<Segment> segments) {
   return loops;
 }
 
-void append(int dimension, const Loop& loop, FluidShape& shape) {
+void append(int dimension, const Loop& loop, WetShape& shape) {
   for (const Vector& x : loop) shape.points.insert(shape.points.end(), x.begin(), x.begin() + dimension);
   shape.first.push_back(static_cast<int>(shape.points.size()) / dimension);
 }
 
-/// Fluid parts of a side's edge k, in the direction of the side.
+/// Wet parts of a side's edge k, in the direction of the side.
 void add_edge(const Outline& outline, const std::vector<int>& coverage, const CutCell& cell, const Side& side,
               int k, std::vector<Segment>& segments) {
   const bool forward = side.forward[k] > 0;
@@ -62,7 +62,7 @@ void add_edge(const Outline& outline, const std::vector<int>& coverage, const Cu
 }
 
 void add_sides(const Outline& outline, const std::vector<int>& coverage, const CutCell& cell,
-               FluidShape& shape) {
+               WetShape& shape) {
   std::vector<Segment> segments;
   for (int s = outline.first_side[cell.cell]; s < outline.first_side[cell.cell + 1]; ++s) {
     segments.clear();
@@ -75,7 +75,7 @@ void add_sides(const Outline& outline, const std::vector<int>& coverage, const C
 
 }  // namespace
 
-void CutMesh::fluid_shape(int cell, FluidShape& shape, int part) const {
+void CutMesh::wet_shape(int cell, WetShape& shape, int part) const {
   const CutCell& cut = geometry_->at(cell, part);
   const int dim = mesh_->dimension();
   shape.points.clear();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seam/cut/fluid_leaves.hpp"
+#include "seam/cut/wet_leaves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ double solid_angle(const std::array<Vector, 3>& corner, const Vector& x) {
   return 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
 
-/// Divides the cell along the planes of the interface until each part lies wholly in the fluid or not.
+/// Divides the cell along the planes of the interface until each part lies wholly in the wet part or not.
 void split_along_interface(const CutCell& cell, std::vector<Convex>& parts) {
   for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
     const Piece& p = cell.pieces[k];
@@ -74,7 +74,7 @@ void split_along_interface(const CutCell& cell, std::vector<Convex>& parts) {
 
 }  // namespace
 
-bool is_in_fluid(const CutCell& cell, const Vector& x) {
+bool is_wet_at(const CutCell& cell, const Vector& x) {
   double sum = 0;
   visit_boundary(3, cell, [&](const std::array<Vector, 3>& corner, double sign) {
     sum += (sign > 0 ? 1 : -1) * solid_angle(corner, x);
@@ -82,10 +82,10 @@ bool is_in_fluid(const CutCell& cell, const Vector& x) {
   return sum > 2 * std::numbers::pi;
 }
 
-std::vector<Convex> fluid_leaves(const Outline& outline, const CutCell& cell, bool is_convex) {
+std::vector<Convex> wet_leaves(const Outline& outline, const CutCell& cell, bool is_convex) {
   std::vector<Convex> parts = convex_parts(outline, cell.cell, is_convex);
   split_along_interface(cell, parts);
-  std::erase_if(parts, [&](const Convex& part) { return !is_in_fluid(cell, centre(part)); });
+  std::erase_if(parts, [&](const Convex& part) { return !is_wet_at(cell, centre(part)); });
   return parts;
 }
 

@@ -12,12 +12,13 @@ namespace seam::cutting {
 /// Outline.
 constexpr int piece_origin(int piece) { return -1 - piece; }
 
-/// In space: the fluid part of a cut cell as convex polyhedra. The cell is divided along the planes of the
-/// interface until each polyhedron lies wholly in the fluid or not; less than 1e-14 of it is not divided off.
+/// In space: the wet part of a cut cell as convex polyhedra. The cell is divided along the planes of the
+/// interface until each polyhedron lies wholly in the wet part or not; less than 1e-14 of it is not divided
+/// off.
 /// @param is_convex whether the cell is; others are divided into tetrahedra around their centre first
-std::vector<Convex> fluid_leaves(const Outline& outline, const CutCell& cell, bool is_convex);
+std::vector<Convex> wet_leaves(const Outline& outline, const CutCell& cell, bool is_convex);
 
-/// In space: whether a point of a cell lies in its fluid.
-bool is_in_fluid(const CutCell& cell, const Vector& x);
+/// In space: whether a point of a cell lies in its wet part.
+bool is_wet_at(const CutCell& cell, const Vector& x);
 
 }  // namespace seam::cutting
