@@ -126,7 +126,7 @@ TEST_CASE("two bodies exchange through a matching interface", "[ranks]") {
 }
 
 TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
-  const std::string preconditioner = GENERATE("multigrid", "ilu");
+  const std::string preconditioner = GENERATE("multigrid", "schur", "ilu");
   auto problem = two_bodies(CellType::hexahedron, 1);
   KrylovSolver solver(krylov(preconditioner));
   Newton newton(*problem, solver, {1e-11, 1e-5, 10, true});

@@ -21,8 +21,8 @@ KrylovSolver::KrylovSolver(const Parameters& p)
       maximum_iterations_(static_cast<int>(p.integer("maximum_iterations"))),
       restart_(static_cast<int>(p.integer("restart"))),
       keep_(p.number("keep")),
-      multigrid_(p.text("preconditioner") == "multigrid"),
-      fill_(static_cast<int>(p.integer("fill"))) {
+      use_{p.text("preconditioner") != "ilu", p.text("preconditioner") == "schur",
+           static_cast<int>(p.integer("fill"))} {
   acceptable_residual_ = 100 * tolerance_;
 }
 
@@ -37,9 +37,11 @@ Schema KrylovSolver::schema() {
       .otherwise("1000")
       .at_least(1);
   s.integer("restart", "Size of the Krylov space").otherwise("150").at_least(2);
-  s.choice("preconditioner", "Per field block: multigrid where the block suits it, or ilu everywhere",
-           {"multigrid", "ilu"})
-      .otherwise("multigrid");
+  s.choice("preconditioner",
+           "Per field block: multigrid where the block suits it; the same, with a Schur complement for the "
+           "pressure of a flow; or ilu everywhere",
+           {"multigrid", "schur", "ilu"})
+      .otherwise("schur");
   s.integer("fill", "Levels of fill-in of incomplete factorisations").otherwise("0").at_least(0).at_most(5);
   s.number(
        "keep",
@@ -62,7 +64,7 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
   const auto matrix = tpetra_view(a);
   if (report.new_factorisation) {
     preconditioner_.reset();  // two of them need never be in memory together
-    auto inverse = Teuchos::rcp(new BlockGaussSeidel(matrix, a, blocks, multigrid_, fill_));
+    auto inverse = Teuchos::rcp(new BlockGaussSeidel(matrix, a, blocks, use_));
     preconditioner_ = std::make_unique<Preconditioner>(Preconditioner{inverse, a.pattern_version});
   } else {
     preconditioner_->apply->follow(matrix);

@@ -9,9 +9,18 @@
 
 namespace seam {
 
+/// What approximates the inverse of a field's block.
+struct FieldInverses {
+  bool
+      multigrid;  ///< for blocks of one unknown a node or of a displacement, else an incomplete factorisation
+  bool schur;     ///< a Schur complement for blocks with constraints
+  int fill;       ///< levels of fill-in of incomplete factorisations
+};
+
 /// Flexible GMRES (Belos), preconditioned by block Gauss-Seidel over the blocks of the fields; each block by
 /// smoothed aggregation (MueLu, with the rigid body modes as near-null space where the block is a vector) or
-/// by incomplete factorisation (Ifpack2). The preconditioner is kept while iteration counts stay low.
+/// by incomplete factorisation (Ifpack2), those of a flow also by SIMPLE. The preconditioner is kept while
+/// iteration counts stay low.
 class KrylovSolver final : public LinearSolver {
  public:
   explicit KrylovSolver(const Parameters& parameters);
@@ -31,8 +40,7 @@ class KrylovSolver final : public LinearSolver {
   int maximum_iterations_;
   int restart_;
   double keep_;
-  bool multigrid_;
-  int fill_;
+  FieldInverses use_;
   std::unique_ptr<Preconditioner> preconditioner_;
 };
 

@@ -43,9 +43,16 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
   parameters.set("number of equations", block.unknowns_per_node);
   parameters.set("max levels", 10);
   parameters.set("coarse: max size", 800);
-  parameters.set("smoother: type", "CHEBYSHEV");
-  parameters.sublist("smoother: params").set("chebyshev: degree", 3);
-  parameters.sublist("smoother: params").set("chebyshev: ratio eigenvalue", 20.0);
+  auto& smoother = parameters.sublist("smoother: params");
+  if (block.symmetric) {
+    parameters.set("smoother: type", "CHEBYSHEV");
+    smoother.set("chebyshev: degree", 3);
+    smoother.set("chebyshev: ratio eigenvalue", 20.0);
+  } else {
+    parameters.set("smoother: type", "RELAXATION");
+    smoother.set("relaxation: type", "Symmetric Gauss-Seidel");
+    smoother.set("relaxation: sweeps", 2);
+  }
   parameters.set("aggregation: type", "uncoupled");
   parameters.set("aggregation: drop tol", 0.0);
   if (matrix->getComm()->getSize() > 1) {

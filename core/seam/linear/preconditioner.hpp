@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "seam/linear/tpetra.hpp"
+#include "seam/linear/krylov_solver.hpp"
+#include "seam/linear/selection.hpp"
 
 namespace seam {
 
@@ -13,15 +14,20 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
 /// @param fill levels of fill-in
 Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix, int fill);
 
+/// The approximate block factorisation SIMPLE of a block in which the last unknowns of each node have an
+/// equation that constrains the others, as the pressure of an incompressible flow: an incomplete
+/// factorisation for the others, multigrid for the Schur complement.
+Teuchos::RCP<TpetraOperator> make_simple(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
+                                         const EquationBlock& block, int fill);
+
 /// Solves the blocks of a system one after the other, each with the residual that the ones before have left:
 /// forward block Gauss-Seidel. Blocks of one unknown a node, or of a displacement, are left to multigrid,
 /// others to an incomplete factorisation.
 class BlockGaussSeidel final : public TpetraOperator {
  public:
   /// @param system a view of `a`
-  /// @param fill levels of fill-in of incomplete factorisations
   BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
-                   const std::vector<EquationBlock>& blocks, bool multigrid, int fill);
+                   const std::vector<EquationBlock>& blocks, const FieldInverses& use);
   /// From now on residuals are those of another matrix with the same unknowns; the blocks' inverses stay.
   void follow(const Teuchos::RCP<TpetraMatrix>& system) { system_ = system; }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override {
@@ -33,8 +39,7 @@ class BlockGaussSeidel final : public TpetraOperator {
 
  private:
   struct Part {
-    int first, count;
-    Teuchos::RCP<const TpetraMap> map;
+    Selection selection;
     Teuchos::RCP<TpetraOperator> inverse;
   };
   Teuchos::RCP<TpetraMatrix> system_;

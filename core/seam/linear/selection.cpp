@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/linear/selection.hpp"
+
+namespace seam {
+
+Selection::Selection(const TpetraMatrix& system, std::vector<int> rows)
+    : rows_(std::move(rows)),
+      map_(Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), rows_.size(),
+                                      0, system.getComm()))) {
+  Tpetra::Vector<long long, int, long long> mine(system.getDomainMap()), all(system.getColMap());
+  mine.putScalar(-1);
+  {
+    auto data = mine.getDataNonConst();
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      data[rows_[k]] = map_->getGlobalElement(static_cast<int>(k));
+  }
+  if (const auto importer = system.getGraph()->getImporter(); !importer.is_null())
+    all.doImport(mine, *importer, Tpetra::INSERT);
+  else
+    all = mine;
+  const auto data = all.getData();
+  number_.assign(data.begin(), data.end());
+}
+
+Teuchos::RCP<TpetraMatrix> Selection::submatrix(const Matrix& a, const Selection& columns) const {
+  Teuchos::ArrayRCP<std::size_t> lengths(rows_.size());
+  std::vector<long long> column;
+  std::vector<double> value;
+  const auto read = [&](int row) {
+    column.clear();
+    value.clear();
+    for (std::size_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
+      if (const long long number = columns.number_[a.column[k]]; number >= 0) {
+        column.push_back(number);
+        value.push_back(a.value[k]);
+      }
+  };
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    read(rows_[k]);
+    lengths[k] = column.size();
+  }
+  auto result = Teuchos::rcp(new TpetraMatrix(map_, lengths(), Tpetra::StaticProfile));
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    read(rows_[k]);
+    result->insertGlobalValues(map_->getGlobalElement(static_cast<int>(k)), static_cast<int>(column.size()),
+                               value.data(), column.data());
+  }
+  result->fillComplete(columns.map_, map_);
+  return result;
+}
+
+TpetraVector Selection::gather(const TpetraVector& all, int first) const {
+  TpetraVector part(map_, all.getNumVectors());
+  for (std::size_t v = 0; v < all.getNumVectors(); ++v) {
+    const auto from = all.getData(v);
+    auto to = part.getDataNonConst(v);
+    for (std::size_t k = 0; k < rows_.size(); ++k) to[k] = from[rows_[k] - first];
+  }
+  return part;
+}
+
+void Selection::scatter(const TpetraVector& part, TpetraVector& all, int first) const {
+  for (std::size_t v = 0; v < all.getNumVectors(); ++v) {
+    const auto from = part.getData(v);
+    auto to = all.getDataNonConst(v);
+    for (std::size_t k = 0; k < rows_.size(); ++k) to[rows_[k] - first] = from[k];
+  }
+}
+
+}  // namespace seam

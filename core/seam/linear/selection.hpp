@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "seam/linear/tpetra.hpp"
+
+namespace seam {
+
+/// Some equations of a system, numbered anew from 0 over the ranks, and the unknowns of the same numbers.
+class Selection {
+ public:
+  /// Collective. @param rows of this rank, increasing
+  Selection(const TpetraMatrix& system, std::vector<int> rows);
+  [[nodiscard]] const Teuchos::RCP<const TpetraMap>& map() const { return map_; }
+  [[nodiscard]] const std::vector<int>& rows() const { return rows_; }
+  /// The rows of this selection and the columns of another. Collective.
+  /// @param a the matrix that `system` of the constructor was a view of
+  [[nodiscard]] Teuchos::RCP<TpetraMatrix> submatrix(const Matrix& a, const Selection& columns) const;
+  /// What a vector has in this selection's rows. @param first row of the system with which `all` begins
+  [[nodiscard]] TpetraVector gather(const TpetraVector& all, int first = 0) const;
+  /// Puts a vector over this selection into a larger one.
+  void scatter(const TpetraVector& part, TpetraVector& all, int first = 0) const;
+
+ private:
+  std::vector<int> rows_;
+  Teuchos::RCP<const TpetraMap> map_;
+  std::vector<long long> number_;  ///< [local column of the system]: that of the selection, -1 outside of it
+};
+
+}  // namespace seam
