@@ -56,8 +56,8 @@ struct EquationBlock {
   /// So many last ones of them have no rate, as a pressure beside a velocity: their equations constrain the
   /// rest.
   int constraints = 0;
-  bool symmetric = true;  ///< nearly, so that smoothers for symmetric matrices serve
-  std::vector<double> coordinates;                  ///< [local node][dimension], owned and active
+  bool symmetric = true;            ///< nearly, so that smoothers for symmetric matrices serve
+  std::vector<double> coordinates;  ///< [local node][dimension], owned and active
   std::vector<std::vector<double>> near_nullspace;  ///< vectors over the block's local rows
   int dimension = 2;
 };
