@@ -113,7 +113,8 @@ StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options&
   const bool is_finished = summary.is_object() && summary.value("status", "") == "finished";
   if (!is_finished) {
     record.problem = summary.is_object() ? summary.value("reason", last_line(log)) : last_line(log);
-    if (record.problem.empty()) record.problem = fmt::format("exit code {}, see {}/log.txt", code, folder.filename().string());
+    if (record.problem.empty())
+      record.problem = fmt::format("exit code {}, see {}/log.txt", code, folder.filename().string());
     return record;
   }
   versions = summary.at("versions");
