@@ -1,25 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Ifpack2_AdditiveSchwarz.hpp>
-#include <Ifpack2_Factory.hpp>
 #include <numeric>
 
 #include "seam/linear/preconditioner.hpp"
 
 namespace seam {
-Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix, int fill) {
-  Ifpack2::Factory factory;
-  const Teuchos::RCP<const Tpetra::RowMatrix<double, int, long long>> rows = matrix;
-  auto result = factory.create<Tpetra::RowMatrix<double, int, long long>>("SCHWARZ", rows);
-  Teuchos::ParameterList parameters;
-  parameters.set("schwarz: inner preconditioner name", "RILUK");
-  parameters.set("schwarz: overlap level", matrix->getComm()->getSize() > 1 ? 1 : 0);
-  parameters.sublist("schwarz: inner preconditioner parameters").set("fact: iluk level-of-fill", fill);
-  result->setParameters(parameters);
-  result->initialize();
-  result->compute();
-  return result;
-}
-
 BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
                                    const std::vector<EquationBlock>& blocks, const FieldInverses& use)
     : system_(system) {
@@ -34,12 +18,13 @@ BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, con
     const bool large_schur = size / block.unknowns_per_node * block.constraints > small;
     const bool pure = block.unknowns_per_node == block.dimension || block.unknowns_per_node == 1;
     Teuchos::RCP<TpetraOperator> inverse;
-    if (use.schur && large_schur)
+    if (use.schur && large_schur) {
       inverse = make_simple(system, a, block, use.fill);
-    else {
+    } else if (large && use.multigrid && pure) {
       const auto matrix = blocks.size() == 1 ? system : selection.submatrix(a, selection);
-      inverse = large && use.multigrid && pure ? make_multigrid(matrix, block)
-                                               : make_incomplete_lu(matrix, use.fill);
+      inverse = make_multigrid(matrix, block);
+    } else {
+      inverse = make_incomplete_lu(selection.own_submatrix(a), selection.map(), use.fill);
     }
     parts_.push_back({selection, inverse});
   }

@@ -10,9 +10,12 @@ namespace seam {
 Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix,
                                             const EquationBlock& block);
 
-/// An incomplete LU factorisation with one layer of overlap between ranks (Ifpack2).
+/// An incomplete LU factorisation of each rank's own part (Ifpack2). The matrix is not kept.
+/// @param own this rank's part, as a matrix of this rank alone
+/// @param rows of the result, over all ranks
 /// @param fill levels of fill-in
-Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& matrix, int fill);
+Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& own,
+                                                const Teuchos::RCP<const TpetraMap>& rows, int fill);
 
 /// The approximate block factorisation SIMPLE of a block in which the last unknowns of each node have an
 /// equation that constrains the others, as the pressure of an incompressible flow: an incomplete

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <TpetraExt_MatrixMatrix.hpp>
+#include <algorithm>
 
 #include "seam/linear/preconditioner.hpp"
 
@@ -16,12 +17,16 @@ class Simple final : public TpetraOperator {
         constrained_(*system, rows(block, true)),
         map_(Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), block.count,
                                         0, system->getComm()))) {
-    const auto f = free_.submatrix(a, free_);
-    inverse_ = make_incomplete_lu(f, fill);
+    Tpetra::Vector<double, int, long long> scale(free_.map());
+    {
+      const auto own = free_.own_submatrix(a);
+      Tpetra::Vector<double, int, long long> diagonal(own->getRowMap());
+      own->getLocalDiagCopy(diagonal);
+      std::ranges::copy(diagonal.getData(), scale.getDataNonConst().begin());
+      inverse_ = make_incomplete_lu(own, free_.map(), fill);
+    }
     divergence_ = constrained_.submatrix(a, free_);
     gradient_ = free_.submatrix(a, constrained_);
-    Tpetra::Vector<double, int, long long> scale(free_.map());
-    f->getLocalDiagCopy(scale);
     scale.reciprocal(scale);
     scale.scale(-1);
     gradient_->leftScale(scale);

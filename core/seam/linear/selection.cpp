@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/linear/selection.hpp"
 
+#include <Teuchos_DefaultSerialComm.hpp>
+#include <limits>
+
 namespace seam {
 
 Selection::Selection(const TpetraMatrix& system, std::vector<int> rows)
@@ -22,31 +25,46 @@ Selection::Selection(const TpetraMatrix& system, std::vector<int> rows)
   number_.assign(data.begin(), data.end());
 }
 
-Teuchos::RCP<TpetraMatrix> Selection::submatrix(const Matrix& a, const Selection& columns) const {
+Teuchos::RCP<TpetraMatrix> Selection::extract(const Matrix& a, const Selection& columns,
+                                              const Teuchos::RCP<const TpetraMap>& row_map,
+                                              const Teuchos::RCP<const TpetraMap>& column_map,
+                                              long long shift, long long end) const {
   Teuchos::ArrayRCP<std::size_t> lengths(rows_.size());
   std::vector<long long> column;
   std::vector<double> value;
   const auto read = [&](int row) {
     column.clear();
     value.clear();
-    for (std::size_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k)
-      if (const long long number = columns.number_[a.column[k]]; number >= 0) {
-        column.push_back(number);
-        value.push_back(a.value[k]);
-      }
+    for (std::size_t k = a.row_start[row]; k < a.row_start[row + 1]; ++k) {
+      const long long found = columns.number_[a.column[k]], number = found + shift;
+      if (found < 0 || number < 0 || number >= end) continue;
+      column.push_back(number);
+      value.push_back(a.value[k]);
+    }
   };
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     read(rows_[k]);
     lengths[k] = column.size();
   }
-  auto result = Teuchos::rcp(new TpetraMatrix(map_, lengths(), Tpetra::StaticProfile));
+  auto result = Teuchos::rcp(new TpetraMatrix(row_map, lengths(), Tpetra::StaticProfile));
   for (std::size_t k = 0; k < rows_.size(); ++k) {
     read(rows_[k]);
-    result->insertGlobalValues(map_->getGlobalElement(static_cast<int>(k)), static_cast<int>(column.size()),
-                               value.data(), column.data());
+    result->insertGlobalValues(row_map->getGlobalElement(static_cast<int>(k)),
+                               static_cast<int>(column.size()), value.data(), column.data());
   }
-  result->fillComplete(columns.map_, map_);
+  result->fillComplete(column_map, row_map);
   return result;
+}
+
+Teuchos::RCP<TpetraMatrix> Selection::submatrix(const Matrix& a, const Selection& columns) const {
+  return extract(a, columns, map_, columns.map_, 0, std::numeric_limits<long long>::max());
+}
+
+Teuchos::RCP<TpetraMatrix> Selection::own_submatrix(const Matrix& a) const {
+  const auto count = static_cast<long long>(rows_.size());
+  const Teuchos::RCP<const Teuchos::Comm<int>> alone = Teuchos::rcp(new Teuchos::SerialComm<int>);
+  const Teuchos::RCP<const TpetraMap> own = Teuchos::rcp(new TpetraMap(count, 0, alone));
+  return extract(a, *this, own, own, count == 0 ? 0 : -map_->getMinGlobalIndex(), count);
 }
 
 TpetraVector Selection::gather(const TpetraVector& all, int first) const {

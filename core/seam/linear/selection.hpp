@@ -17,12 +17,19 @@ class Selection {
   /// The rows of this selection and the columns of another. Collective.
   /// @param a the matrix that `system` of the constructor was a view of
   [[nodiscard]] Teuchos::RCP<TpetraMatrix> submatrix(const Matrix& a, const Selection& columns) const;
+  /// What the rows couple within this rank, as a matrix of this rank alone.
+  [[nodiscard]] Teuchos::RCP<TpetraMatrix> own_submatrix(const Matrix& a) const;
   /// What a vector has in this selection's rows. @param first row of the system with which `all` begins
   [[nodiscard]] TpetraVector gather(const TpetraVector& all, int first = 0) const;
   /// Puts a vector over this selection into a larger one.
   void scatter(const TpetraVector& part, TpetraVector& all, int first = 0) const;
 
  private:
+  /// The entries of some rows in those columns whose number, moved by `shift`, is in [0, end).
+  [[nodiscard]] Teuchos::RCP<TpetraMatrix> extract(const Matrix& a, const Selection& columns,
+                                                   const Teuchos::RCP<const TpetraMap>& row_map,
+                                                   const Teuchos::RCP<const TpetraMap>& column_map,
+                                                   long long shift, long long end) const;
   std::vector<int> rows_;
   Teuchos::RCP<const TpetraMap> map_;
   std::vector<long long> number_;  ///< [local column of the system]: that of the selection, -1 outside of it

@@ -49,7 +49,9 @@ Schema solver_schema() {
       .above(0)
       .below(1)
       .otherwise("1e-8");
-  newton.number("increment_tolerance", "of the last update, relative to the change in the step")
+  newton
+      .number("increment_tolerance",
+              "of what is left to add, judged by the last two updates, relative to the change in the step")
       .above(0)
       .otherwise("1e-5");
   newton.integer("maximum_iterations", "a step that needs more has failed")

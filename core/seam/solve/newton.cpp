@@ -18,6 +18,13 @@ constexpr double steady_part = 1e-6;
 /// of them (thesis 6.3.2).
 constexpr int free_iterations = 3;
 
+/// What is left to add after an increment that was so much smaller than the one before it: the rest of a
+/// geometric series, which overestimates Newton's method where that converges.
+double remainder(double increment, double before) {
+  const double contraction = before > 0 ? increment / before : 1;
+  return contraction < 0.5 ? increment * contraction / (1 - contraction) : increment;
+}
+
 }  // namespace
 
 /// Sizes of the residual and of the last increment, each for the unknown where it is largest.
@@ -70,6 +77,7 @@ NewtonReport Newton::solve(const TimePoint& at) {
     }
     // After a renumbering the increment's rows mean nothing any more.
     if (entry.space_changed) increment.clear();
+    const Size last = size;
     size = measure(increment, entry.damping);
     entry.residual = size.residual;
     entry.worst = size.worst;
@@ -78,7 +86,12 @@ NewtonReport Newton::solve(const TimePoint& at) {
       report.reason = fmt::format("the residual of {} is not finite at the start of the step", size.worst);
       return report;
     }
-    const bool settled = size.residual <= rounding || size.increment <= options_.increment_tolerance;
+    // A residual that was small and does not fall any more is at rounding error: so are the increments.
+    const bool at_rounding =
+        size.residual <= rounding || (iteration > 0 && last.residual <= options_.tolerance &&
+                                      !entry.space_changed && size.residual > 0.5 * last.residual);
+    const bool settled =
+        at_rounding || remainder(size.increment, last.increment) <= options_.increment_tolerance;
     if (size.residual <= options_.tolerance && settled && !entry.space_changed &&
         !problem_.assembler().prescribed_pending()) {
       report.converged = true;

@@ -13,8 +13,8 @@ namespace seam {
 struct NewtonOptions {
   /// On each unknown's residual, relative to Assembler::magnitude.
   double tolerance = 1e-8;
-  /// On each unknown's last increment, relative to its change in the step. A slender body bends with forces
-  /// that are small beside those it would stretch with: there the residual alone says little.
+  /// On what is left to add to each unknown, relative to its change in the step. A slender body bends with
+  /// forces that are small beside those it would stretch with: there the residual alone says little.
   double increment_tolerance = 1e-5;
   int maximum_iterations = 25;
   bool damping = true;  ///< shorten steps that lead to an inadmissible state or a much larger residual
