@@ -14,10 +14,10 @@ void report(const SceneOutcome& outcome) {
   if (!outcome.checks.empty()) fmt::print("{}", check_table(outcome.checks));
   const Timings& t = outcome.timings;
   fmt::print(
-      "  {} unknowns, {:.2f} s: setup {:.2f}, pattern {:.2f}, assembly {:.2f}, linear solver {:.2f}, output "
-      "{:.2f}; "
-      "{:.0f} MB\n",
-      outcome.unknowns, t.total, t.setup, t.pattern, t.assembly, t.linear, t.output,
+      "  {} unknowns, {:.2f} s: setup {:.2f}, cut {:.2f}, pattern {:.2f}, assembly {:.2f}, linear solver "
+      "{:.2f}, "
+      "output {:.2f}; {:.0f} MB\n",
+      outcome.unknowns, t.total, t.setup, t.cut, t.pattern, t.assembly, t.linear, t.output,
       outcome.peak_memory / 1e6);
   fmt::print("  results: {}\n", outcome.folder.string());
   if (!outcome.picture.empty()) fmt::print("  picture: {}\n", outcome.picture.string());

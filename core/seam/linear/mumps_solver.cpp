@@ -13,13 +13,13 @@
 namespace seam {
 namespace {
 
-// MUMPS' job codes.
 /// Small enough for Newton's method to converge as with exact solutions.
 constexpr double kept_tolerance = 1e-7;
 
 /// Below this part of unknowns that kept factors know they are not tried.
 constexpr double enough_known = 0.8;
 
+// MUMPS' job codes.
 constexpr int job_begin = -1, job_end = -2, job_analyse = 1, job_factorise = 2, job_solve = 3;
 
 }  // namespace

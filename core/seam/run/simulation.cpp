@@ -204,6 +204,7 @@ const Results& Simulation::run(const RunOptions& options) {
 }
 
 void Simulation::finish_timings() {
+  timings_.cut = problem_.cut_seconds();
   timings_.pattern = problem_.assembler().pattern_seconds();
   timings_.assembly = problem_.assembler().assembly_seconds();
   timings_.total = run_watch_.seconds() + timings_.setup;

@@ -30,7 +30,7 @@ struct RunOptions {
 
 /// Where the time of a run went, s.
 struct Timings {
-  double setup = 0, pattern = 0, assembly = 0, linear = 0, output = 0, total = 0;
+  double setup = 0, cut = 0, pattern = 0, assembly = 0, linear = 0, output = 0, total = 0;
 };
 
 /// A scene brought to life: built, stepped through time, recorded.

@@ -70,8 +70,9 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["unknowns"] = unknowns();
   s["steps"] = state_.step_number;
   s["rejected_steps"] = rejected_steps_;
-  s["seconds"] = {{"setup", timings_.setup},   {"pattern", timings_.pattern}, {"assembly", timings_.assembly},
-                  {"linear", timings_.linear}, {"output", timings_.output},   {"total", timings_.total}};
+  s["seconds"] = {{"setup", timings_.setup},       {"cut", timings_.cut},       {"pattern", timings_.pattern},
+                  {"assembly", timings_.assembly}, {"linear", timings_.linear}, {"output", timings_.output},
+                  {"total", timings_.total}};
   s["peak_memory_bytes"] = communicator_.sum(peak_memory());
   s["newton"] = histories(reports_);
   s["results"] = nlohmann::json::object();

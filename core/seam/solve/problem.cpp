@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "seam/base/stopwatch.hpp"
 #include "seam/solve/field_builder.hpp"
 #include "seam/solve/level.hpp"
 
@@ -243,6 +244,7 @@ void Problem::update_rates(const TimePoint& at) {
 }
 
 SpaceChange Problem::update_cuts(const TimePoint& at) {
+  const Stopwatch watch;
   SpaceChange change = SpaceChange::none;
   for (FieldEntry& entry : fields_) {
     if (!entry.cut) continue;
@@ -257,6 +259,7 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
     change = std::max(change, communicator_.any(!same) ? SpaceChange::unknowns : SpaceChange::geometry);
   }
   if (change != SpaceChange::none) update_rates(at);
+  cut_seconds_ += watch.seconds();
   return change;
 }
 

@@ -127,6 +127,8 @@ class Problem {
   /// What is integrated where.
   using DomainTerms = std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>;
   [[nodiscard]] const std::vector<DomainTerms>& domains() const { return domains_; }
+  /// Seconds spent in cutting meshes and in carrying states over, for the report.
+  [[nodiscard]] double cut_seconds() const { return cut_seconds_; }
   /// True when some unknown has a rate, so that time matters.
   [[nodiscard]] bool has_rates() const;
 
@@ -180,6 +182,7 @@ class Problem {
   std::vector<InterfaceMismatch> mismatches_;
   std::vector<SpaceUpdate> space_updates_;
   std::unique_ptr<Assembler> assembler_;
+  double cut_seconds_ = 0;
 };
 
 /// The one-step-theta scheme at the end of a step; step 0 means a static problem.
