@@ -99,8 +99,9 @@ class Fsi final : public Coupling {
           fmt::format("`stress: solid` needs a body that makes its stress known; field '{}' does not (a "
                       "solid does, unless its formulation is mixed)",
                       sides.fields[1]->name()));
-    return {{make_term(SolidSided{law, jumps(), adjoint, penalty.number("solid")}, 1), operands,
-             std::make_shared<TraceEigenvalue>(law, refresh())}};
+    return {{make_term(SolidSided{law, jumps(), adjoint, penalty.number("solid")}, 1),
+             operands,
+             {{1, std::make_shared<TraceEigenvalue>(law, refresh())}}}};
   }
 
   [[nodiscard]] std::vector<Mismatch> mismatches(const CouplingSides&) const override {

@@ -41,7 +41,7 @@ struct SolidSided {
     const Vec<dim, G> normal = -x.normal;
     const Mat<dim, dim, T> gradient = s.gradient(Displacement{});
     const Vec<dim, T> jump = jumps.mismatch<dim, T>(x, s.value(Velocity{}), s.rate(Displacement{}));
-    const Vec<dim, T> resistance = (penalty * scale * x.constant) * jump;
+    const Vec<dim, T> resistance = (penalty * scale * x.constant[0]) * jump;
     if (adjoint == 0) {
       add_traction<dim, T>(x, body_traction<dim, T>(*law, gradient, normal) + resistance, r);
       return;

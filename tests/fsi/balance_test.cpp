@@ -48,7 +48,7 @@ struct State {
     batch.partner_position = material_point;
     batch.normal = normal;
     batch.cell_size = batch.trace_size = &sizes;
-    batch.constant = &lambda_e;
+    batch.constant[0] = &lambda_e;
     batch.inputs = inputs.data();
     batch.time = t;
     batch.step = time_step;

@@ -97,9 +97,14 @@ void Element::measure_face(const CellTopology& cell, int face, const std::vector
   }
 }
 
-int IntegrationDomain::add_constant(std::shared_ptr<const CellConstant>) {
+const std::vector<Operand>& IntegrationDomain::movers() const {
+  static const std::vector<Operand> none;
+  return none;
+}
+
+int IntegrationDomain::add_constant(int, std::shared_ptr<const CellConstant>) {
   throw Error("a coupling needs constants of the body's cells, which " + description() +
-              " do not keep; use an interface of type embedded");
+              " do not keep; use an interface of type embedded or contact");
 }
 
 double Element::measure() const { return std::accumulate(weight.begin(), weight.end(), 0.0); }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -37,15 +38,18 @@ struct ElementSide {
   void map_geometry();
 };
 
-/// How an element's points move with the nodes of a body on one of its sides: derivatives with respect to the
-/// coordinates of the nodes that a point's facet has. Move k of a point = node * dimension + component of it,
-/// dimension^2 of them.
+/// How an element's points move with the nodes of the bodies on its sides: derivatives with respect to the
+/// coordinates of the nodes that a point's facets have, one facet of each mover. Move k of a point =
+/// (mover * dimension + node) * dimension + component of it, dimension^2 for each mover.
 struct PointMotion {
-  std::vector<int> node;                ///< [point][dimension]: node of the side's cell in the moving block
-  std::vector<double> position;         ///< [point][dimension][move]
-  std::vector<double> normal;           ///< [point][dimension][move], 1/m
+  std::vector<int> node;         ///< [point][mover][dimension]: node of the side's cell in the moving block
+  std::vector<double> position;  ///< [point][dimension][move]
+  std::vector<double> normal;    ///< [point][dimension][move], 1/m
   std::vector<double> relative_weight;  ///< [point][move], 1/m
-  std::vector<double> reference;        ///< [point][reference direction][move], in the body's cell, 1/m
+  std::vector<double> gap;              ///< [point][move]; empty where the element has no gap
+  /// [side]: [point][reference direction][move], through the side's cell, 1/m; empty for a mesh at rest in
+  /// space, through which points pass with their position.
+  std::array<std::vector<double>, 2> reference;
 };
 
 /// What terms are integrated over: a cell, a face, or a piece of an interface, with its quadrature points.
@@ -56,10 +60,11 @@ struct Element {
   std::vector<double> normal;      ///< [point][dimension], outward from side 0; empty for cells
   std::vector<double> cell_size;   ///< [point]
   std::vector<double> trace_size;  ///< [point], see Point
+  std::vector<double> gap;         ///< [point], see Point; empty where there is none
   /// [constant][point]: those that terms asked the domain to keep.
   std::vector<std::vector<double>> constants;
   std::vector<ElementSide> sides;
-  const PointMotion* motion = nullptr;  ///< where IntegrationDomain::mover() says so
+  const PointMotion* motion = nullptr;  ///< where the domain has movers
 
   /// Fills weight and normal of points on a face of side 0's cell. @param weights of the reference face
   void measure_face(const CellTopology& cell, int face, const std::vector<double>& weights);
@@ -82,14 +87,19 @@ class IntegrationDomain {
   virtual void fill(int index, Element& element) const = 0;
   /// Local nodes of one side's cell in one block, without the cost of fill().
   [[nodiscard]] virtual const int* nodes(int index, int side, int block) const = 0;
-  /// The unknown that displaces the points, and the side it lives on; null where they are at rest.
-  [[nodiscard]] virtual const Operand* mover() const { return nullptr; }
+  /// The unknowns that displace the points, and the sides they live on; none where they are at rest.
+  [[nodiscard]] virtual const std::vector<Operand>& movers() const;
+  /// The side whose volume ends at the elements and grows and shrinks as they move, -1 for none.
+  [[nodiscard]] virtual int swept_side() const { return -1; }
+  /// Lets the points follow the present states of the movers. Collective.
+  /// @return true when there are other elements now, or elements have other cells
+  virtual bool follow() { return false; }
   /// The field whose cells, all of them, are the elements; null where they are not.
   [[nodiscard]] virtual const Field* whole_field() const { return nullptr; }
   /// Finds the elements anew after this field's active cells, or the bodies that cut them, have changed.
   virtual void update(const Field& field) { (void)field; }
-  /// Keeps a number per cell of side 1 for a term. @return index into Element::constants
-  virtual int add_constant(std::shared_ptr<const CellConstant> constant);
+  /// Keeps a number per cell of a side for a term. @return index into Element::constants
+  virtual int add_constant(int side, std::shared_ptr<const CellConstant> constant);
   /// Those that follow the deformation are computed anew: at the start of a step, or in each iteration.
   virtual void forget_constants(bool new_step) { (void)new_step; }
   /// For messages: "cells of field 'water'".

@@ -32,8 +32,8 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
     Compiled compiled{
-        bound.term,    &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_),
-        bound.constant};
+        bound.term,     &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_),
+        bound.constants};
     if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
     if (bound.operands.size() < s.components.size())
       throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound",
@@ -56,7 +56,7 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
         operators.needs_gradient |= slot.shape == Shape::gradient || slot.shape == Shape::normal_derivative;
         operators.needs_normal |= slot.shape == Shape::normal_derivative;
         operators.needs_second_normal |= slot.shape == Shape::second_normal_derivative;
-        if (moving_part_ >= 0 && operators.needs_normal)
+        if (!movers_.empty() && operators.needs_normal)
           throw std::logic_error("a term on " + domain.description() +
                                  " reads normal derivatives: use gradient and normal where points move");
         level_used_[static_cast<int>(slot.level)] = true;
@@ -69,11 +69,12 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
   const std::vector<Field*> fields = domain.fields();
   for (const BoundTerm& bound : terms)
     for (const Operand& operand : bound.operands) add_part(*fields.at(operand.side), operand);
-  if (const Operand* mover = role_ == Role::integrate_at_rest ? nullptr : domain.mover()) {
-    Field& body = *fields.at(mover->side);
-    moving_part_ = add_part(body, *mover);
-    moving_offset_ = body.place(mover->unknown).offset;
-  }
+  if (role_ != Role::integrate_at_rest)
+    for (const Operand& mover : domain.movers()) {
+      Field& body = *fields.at(mover.side);
+      movers_.push_back({add_part(body, mover), body.place(mover.unknown).offset});
+    }
+  moves_ = static_cast<int>(movers_.size()) * dim_ * dim_;
   for (Part& part : parts_) {
     part.offset = size_;
     size_ += part.stride * part.components;
@@ -97,7 +98,7 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
   residual_.assign(size_, 0.0);
   magnitude_.assign(size_, 0.0);
   if (with_tangent) matrix_.assign(static_cast<std::size_t>(size_) * size_, 0.0);
-  moves_now_ = with_tangent && moving_part_ >= 0 && !at.initial_rates;
+  moves_now_ = with_tangent && moves_ > 0 && !at.initial_rates;
   if (role_ == Role::sweep && !moves_now_) return;
   compute_operators();
   gather();
@@ -259,14 +260,17 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   batch.cell_size = element_.cell_size.data();
   batch.trace_size = element_.trace_size.data();
   if (element_.sides.size() > 1) batch.partner_position = element_.sides[1].position.data();
-  if (term.constant >= 0) batch.constant = element_.constants[term.constant].data();
+  for (std::size_t k = 0; k < term.constants.size(); ++k)
+    if (term.constants[k] >= 0) batch.constant[k] = element_.constants[term.constants[k]].data();
+  if (!element_.gap.empty()) batch.gap = element_.gap.data();
   batch.inputs = inputs_.data();
   batch.time = at.time;
   batch.step = at.step;
   batch.theta = at.theta;
   batch.level_factor = factors;
   if (moves_now_ && with_tangent && term.signature->follows_motion) {
-    batch.moves = dim_ * dim_;
+    batch.moves = moves_;
+    if (!element_.motion->gap.empty()) batch.gap_change = element_.motion->gap.data();
     batch.position_change = element_.motion->position.data();
     batch.normal_change = element_.motion->normal.data();
     batch.partner_change = partner_motion_.data();
@@ -325,7 +329,7 @@ void ElementEvaluator::add_tangent(const Compiled& term) {
   work_.points = element_.points;
   work_.weight = element_.weight.data();
   work_.tangent = point_tangent_.data();
-  work_.tangent_columns = term.columns + (moves_now_ && term.signature->follows_motion ? dim_ * dim_ : 0);
+  work_.tangent_columns = term.columns + (moves_now_ && term.signature->follows_motion ? moves_ : 0);
   work_.first_column = first;
   work_.width = end - first;
   work_.matrix = matrix_.data();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -28,7 +29,7 @@ struct TimePoint {
 struct BoundTerm {
   std::shared_ptr<const Term> term;
   std::vector<Operand> operands;
-  int constant = -1;  ///< index into Element::constants, -1 when the term reads none
+  std::array<int, 2> constants{-1, -1};  ///< indices into Element::constants, -1 when the term reads none
 };
 
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
@@ -88,7 +89,7 @@ class ElementEvaluator {
     const Signature* signature;
     std::vector<BoundOperand> operands;
     int inputs, outputs, columns;
-    int constant;
+    std::array<int, 2> constants;
   };
   /// Shape operators of a part at the element's points.
   struct Operators {
@@ -152,7 +153,11 @@ class ElementEvaluator {
   Contraction work_;
   Role role_;
   bool moves_now_ = false;  ///< the element under work is differentiated with respect to its points' motion
-  int moving_part_ = -1, moving_offset_ = 0;           ///< where the unknown that moves the points is
+  struct Mover {
+    int part, offset;
+  };
+  std::vector<Mover> movers_;                          ///< where the unknowns that move the points are
+  int moves_ = 0;                                      ///< of each point
   std::vector<std::vector<double>> reference_motion_;  ///< [side][point][reference direction][move]
   std::vector<double> input_change_, partner_motion_, moved_;
   std::vector<double> residual_, magnitude_, matrix_;

@@ -4,6 +4,10 @@
 
 namespace seam {
 
+namespace {
+constexpr int most_moves = 18;  ///< of two facets in space
+}
+
 /// Derivatives of the physical gradient G = D J^-1 (D: reference gradient, J: the map's Jacobian):
 /// dG = (dD - G dJ) J^-1.
 void ElementEvaluator::compute_gradient_change(int p) {
@@ -37,16 +41,15 @@ void ElementEvaluator::compute_gradient_change(int p) {
     }
 }
 
-/// How fast the points pass through the reference coordinates of each side. The body's side moves along: its
-/// points slide only as far as the cell's borders make them.
+/// How fast the points pass through the reference coordinates of each side. The mover's side moves along: its
+/// points slide only as far as the other side makes them.
 void ElementEvaluator::compute_reference_motion() {
-  const int moves = dim_ * dim_;
-  const int body = domain_->mover()->side;
+  const int moves = moves_;
   reference_motion_.resize(element_.sides.size());
   for (std::size_t s = 0; s < element_.sides.size(); ++s) {
     std::vector<double>& motion = reference_motion_[s];
-    if (static_cast<int>(s) == body) {
-      motion = element_.motion->reference;
+    if (!element_.motion->reference.at(s).empty()) {
+      motion = element_.motion->reference[s];
       continue;
     }
     const std::vector<double>& inverse = element_.sides[s].inverse_jacobian;
@@ -63,7 +66,7 @@ void ElementEvaluator::compute_reference_motion() {
 
 /// How the points pass through the reference configuration of side 1's mesh.
 void ElementEvaluator::compute_partner_motion() {
-  const int moves = dim_ * dim_;
+  const int moves = moves_;
   const ElementSide& side = element_.sides[1];
   const ShapeTable& map = *side.table[side.field->mesh().order() - 1];
   partner_motion_.assign(static_cast<std::size_t>(element_.points) * dim_ * moves, 0.0);
@@ -89,7 +92,7 @@ const double* ElementEvaluator::shape_change(const Slot& slot, int p, int q, int
 }
 
 void ElementEvaluator::compute_input_change(const Compiled& term) {
-  const int moves = dim_ * dim_;
+  const int moves = moves_;
   input_change_.assign(static_cast<std::size_t>(element_.points) * term.inputs * moves, 0.0);
   int at = 0;
   for (const Slot& slot : term.signature->inputs) {
@@ -116,14 +119,16 @@ void ElementEvaluator::compute_input_change(const Compiled& term) {
 
 /// Adds `count` rows of derivatives with respect to the moves of point q. @param rows [row][move]
 void ElementEvaluator::scatter_moves(int q, int row, int count, const double* rows) {
-  const Part& body = parts_[moving_part_];
-  const int* node = &element_.motion->node[static_cast<std::size_t>(q) * dim_];
-  for (int k = 0; k < dim_; ++k)
-    for (int c = 0; c < dim_; ++c) {
-      const int column = body.offset + (moving_offset_ + c) * body.stride + node[k];
-      for (int a = 0; a < count; ++a)
-        matrix_[static_cast<std::size_t>(row + a) * size_ + column] += rows[a * dim_ * dim_ + k * dim_ + c];
-    }
+  const int* node = &element_.motion->node[static_cast<std::size_t>(q) * movers_.size() * dim_];
+  for (const Mover& mover : movers_) {
+    const Part& body = parts_[mover.part];
+    for (int k = 0; k < dim_; ++k, ++node)
+      for (int c = 0; c < dim_; ++c, ++rows) {
+        const int column = body.offset + (mover.offset + c) * body.stride + *node;
+        for (int a = 0; a < count; ++a)
+          matrix_[static_cast<std::size_t>(row + a) * size_ + column] += rows[a * moves_];
+      }
+  }
 }
 
 /// For all test functions of a term at all points: lets `add` fill the derivatives with respect to the
@@ -138,7 +143,7 @@ void ElementEvaluator::add_moves(const Compiled& term, const Add& add) {
     const double* shape = operators_[operand.part].of(slot.shape);
     for (std::size_t q = 0; q < static_cast<std::size_t>(element_.points); ++q)
       for (int c = 0; c < operand.components; ++c) {
-        moved_.assign(static_cast<std::size_t>(n) * dim_ * dim_, 0.0);
+        moved_.assign(static_cast<std::size_t>(n) * moves_, 0.0);
         for (int i = 0; i < directions; ++i)
           add(TestRow{&slot, operand.part, q, i, q * term.outputs + at + c * directions + i,
                       shape + static_cast<std::ptrdiff_t>(q * directions + i) * n, n});
@@ -150,18 +155,18 @@ void ElementEvaluator::add_moves(const Compiled& term, const Add& add) {
 
 /// moved += shape change^T
 void ElementEvaluator::add_outer(const TestRow& row, const double* shape, const double* change) {
-  const int moves = dim_ * dim_;
+  const int moves = moves_;
   for (int a = 0; a < row.nodes; ++a)
     for (int m = 0; m < moves; ++m) moved_[static_cast<std::size_t>(a) * moves + m] += change[m] * shape[a];
 }
 
 /// d(weight r N) = (weight dr + r dweight) N + weight r dN.
 void ElementEvaluator::add_motion_tangent(const Compiled& term) {
-  const int moves = dim_ * dim_, columns = term.columns + moves;
+  const int moves = moves_, columns = term.columns + moves;
   add_moves(term, [&](const TestRow& row) {
     const std::size_t q = row.point;
     const double weight = element_.weight[q], force = weight * point_residual_[row.output];
-    double change[9];
+    double change[most_moves];
     for (int m = 0; m < moves; ++m)
       change[m] = weight * point_tangent_[row.output * columns + term.columns + m] +
                   force * element_.motion->relative_weight[q * moves + m];
@@ -178,11 +183,11 @@ void ElementEvaluator::add_motion_tangent(const Compiled& term) {
 /// An integral over a volume changes by its integrand on the moving surface times the surface's normal
 /// motion.
 void ElementEvaluator::add_sweep(const Compiled& term) {
-  const int moves = dim_ * dim_;
+  const int moves = moves_;
   add_moves(term, [&](const TestRow& row) {
     const double force = element_.weight[row.point] * point_residual_[row.output];
     if (force == 0) return;
-    double change[9] = {};
+    double change[most_moves] = {};
     for (int i = 0; i < dim_; ++i)
       for (int m = 0; m < moves; ++m)
         change[m] += force * element_.normal[row.point * dim_ + i] *

@@ -24,7 +24,7 @@ void CutBoundary::update(const Field& field) {
   for (const int cell : field.cut()->cut_cells()) {
     if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
     for (int part = 0; part < field.parts(cell); ++part) {
-      field.cut()->interface_rule(cell, degree_, rule, mover() ? &motion : nullptr, part);
+      field.cut()->interface_rule(cell, degree_, rule, !movers().empty() ? &motion : nullptr, part);
       add_pieces(cell, part, rule, motion);
     }
   }
@@ -65,7 +65,7 @@ void CutBoundary::fill(int index, Element& element) const {
   element.weight = piece.weight;
   element.normal = piece.normal;
   element.set_sizes(side.diameter, piece.trace_size);
-  element.motion = mover() ? &piece.motion : nullptr;
+  element.motion = !movers().empty() ? &piece.motion : nullptr;
 }
 
 const int* CutBoundary::nodes(int index, int, int block) const {

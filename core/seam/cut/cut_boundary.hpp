@@ -31,7 +31,7 @@ class CutBoundary : public IntegrationDomain {
     std::vector<double> normal;  ///< [point][dimension], out of the field
     CutPoints partner;           ///< of side 1
     double trace_size = 0;
-    PointMotion motion;  ///< where mover() says so
+    PointMotion motion;  ///< where the domain has movers
   };
   /// Points of facets of different groups belong to different elements.
   [[nodiscard]] virtual int group(int facet) const {
@@ -39,7 +39,7 @@ class CutBoundary : public IntegrationDomain {
     return 0;
   }
   /// Sets up side 1 of a piece. @param points of the rule that belong to it
-  /// @param motion of the rule's points; empty unless mover() says that they move
+  /// @param motion of the rule's points; empty unless the domain has movers
   virtual void add_partner(Piece& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
                            const std::vector<int>& points) const {
     (void)piece, (void)rule, (void)motion, (void)points;

@@ -3,128 +3,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "seam/cut/cut_boundary.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/interface/body_surface.hpp"
 
 namespace seam {
 namespace {
-
-/// A body's surface with the cells behind it. Every rank holds all of it: surfaces are small beside volumes.
-class BodySurface {
- public:
-  BodySurface(Field& body, const std::vector<std::string>& boundaries, const std::string& displacement)
-      : body_(&body),
-        boundary_(body_boundary(body.mesh().whole(), boundaries)),
-        place_(body.place(displacement)) {
-    const Space& space = *body.blocks()[place_.block].space;
-    if (space.order() != body.mesh().order())
-      throw Error(
-          fmt::format("the displacement of field '{}' has order {}, its mesh order {}: a body that cuts "
-                      "another mesh needs both alike; give its mesh the order of its displacement",
-                      body.name(), space.order(), body.mesh().order()));
-    std::map<int, int> group;  // of a global cell
-    std::vector<int> cells;
-    for (const CellFace& parent : boundary_.parent) {
-      const auto [found, is_new] = group.emplace(parent.cell, static_cast<int>(cells.size()));
-      if (is_new) {
-        cells.push_back(parent.cell);
-        faces_.emplace_back();
-      }
-      group_.push_back(found->second);
-      auto& faces = faces_[found->second];
-      if (std::find(faces.begin(), faces.end(), parent.face) == faces.end()) faces.push_back(parent.face);
-    }
-    cells_ = fetch_cells(body, cells);
-    for (const int node : boundary_.node) node_.push_back(space.local_node(node));
-    mover_ = {1, displacement};
-    find_places();
-  }
-
-  /// As it is deformed now.
-  [[nodiscard]] Surface now() const {
-    Surface surface = boundary_.surface;
-    const Block& block = body_->blocks()[place_.block];
-    const int dim = surface.dimension;
-    for (std::size_t k = 0; k < node_.size(); ++k)
-      for (int d = 0; d < dim; ++d)
-        surface.points[k * dim + d] +=
-            block.now.value[static_cast<std::size_t>(node_[k]) * block.size + place_.offset + d];
-    return surface;
-  }
-  [[nodiscard]] const Operand& mover() const { return mover_; }
-  /// Which nodes of the cell behind a facet the facet's vertices are, [dimension].
-  [[nodiscard]] const int* places(int facet) const {
-    return &place_in_cell_[static_cast<std::size_t>(facet) * body_->mesh().dimension()];
-  }
-  [[nodiscard]] Field& body() const { return *body_; }
-  /// Number of the cell behind a facet, among those of the surface.
-  [[nodiscard]] int group(int facet) const { return group_[facet]; }
-  [[nodiscard]] const RemoteCell& cell(int group) const { return cells_[group]; }
-  /// All faces of a cell that are part of the surface.
-  [[nodiscard]] const std::vector<int>& faces(int group) const { return faces_[group]; }
-  [[nodiscard]] const Field::Place& displacement() const { return place_; }
-  /// Reference coordinates, in the cell behind a facet, of a point on it.
-  /// @param on_facet the facet's own coordinates, [dimension - 1]
-  void to_cell(int facet, const double* on_facet, std::vector<double>& reference) const {
-    const int dim = body_->mesh().dimension();
-    for (int d = 0; d < dim; ++d) {
-      double x = corner(facet, 0, d);
-      for (int k = 1; k < dim; ++k) x += on_facet[k - 1] * edge(facet, k, d);
-      reference.push_back(x);
-    }
-  }
-  /// The same for a point's motions relative to the facet. @param on_facet [dimension - 1][move]
-  void motion_to_cell(int facet, const double* on_facet, std::vector<double>& reference) const {
-    const int dim = body_->mesh().dimension(), moves = dim * dim;
-    for (int d = 0; d < dim; ++d)
-      for (int m = 0; m < moves; ++m) {
-        double x = 0;
-        for (int k = 1; k < dim; ++k) x += on_facet[(k - 1) * moves + m] * edge(facet, k, d);
-        reference.push_back(x);
-      }
-  }
-
- private:
-  /// Reference coordinate d of vertex k of a facet, and of the way to it from vertex 0.
-  [[nodiscard]] double corner(int facet, int k, int d) const {
-    const CellTopology& cell = topology(body_->mesh().type());
-    const int node = boundary_.local[static_cast<std::size_t>(facet) * cell.dimension + k];
-    return cell.node_coordinates[static_cast<std::size_t>(node) * cell.dimension + d];
-  }
-  [[nodiscard]] double edge(int facet, int k, int d) const {
-    return corner(facet, k, d) - corner(facet, 0, d);
-  }
-  void find_places();
-
-  Field* body_;
-  BodyBoundary boundary_;
-  Field::Place place_;
-  std::vector<int> group_;               ///< [facet]
-  std::vector<std::vector<int>> faces_;  ///< [group]
-  std::vector<RemoteCell> cells_;
-  std::vector<int> node_;           ///< [point]: local node
-  std::vector<int> place_in_cell_;  ///< [facet][dimension]
-  Operand mover_;
-};
-
-void BodySurface::find_places() {
-  const int dim = body_->mesh().dimension();
-  const Space& space = *body_->blocks()[place_.block].space;
-  for (int facet = 0; facet < boundary_.surface.facet_count(); ++facet) {
-    const std::vector<int>& nodes = cells_[group_[facet]].nodes[place_.block];
-    for (int k = 0; k < dim; ++k) {
-      const int node = node_[boundary_.surface.facets[static_cast<std::size_t>(facet) * dim + k]];
-      const auto place = std::find(nodes.begin(), nodes.end(), node);
-      if (place == nodes.end() || place - nodes.begin() >= space.nodes_per_cell())
-        throw std::logic_error("a facet's vertex is no node of the cell behind it");
-      place_in_cell_.push_back(static_cast<int>(place - nodes.begin()));
-    }
-  }
-}
 
 class EmbeddedBoundary final : public CutBoundary {
  public:
@@ -132,9 +18,12 @@ class EmbeddedBoundary final : public CutBoundary {
                    std::shared_ptr<const BodySurface> surface)
       : CutBoundary(field, cut, body, degree),
         surface_(std::move(surface)),
-        constants_(surface_->body(), surface_->displacement()) {}
-  [[nodiscard]] const Operand* mover() const override { return &surface_->mover(); }
-  int add_constant(std::shared_ptr<const CellConstant> constant) override {
+        movers_{{1, surface_->displacement()}},
+        constants_(surface_->body(), surface_->place()) {}
+  [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
+  [[nodiscard]] int swept_side() const override { return 0; }
+  int add_constant(int side, std::shared_ptr<const CellConstant> constant) override {
+    if (side != 1) throw std::logic_error("an embedded interface keeps constants of its body's cells only");
     return constants_.add(std::move(constant));
   }
   void forget_constants(bool new_step) override {
@@ -175,7 +64,8 @@ class EmbeddedBoundary final : public CutBoundary {
       const int facet = rule.facet[q];
       const auto at = static_cast<std::size_t>(q);
       surface_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], piece.partner.reference);
-      surface_->motion_to_cell(facet, &motion.facet_reference[at * (dim - 1) * moves], moving.reference);
+      surface_->motion_to_cell(facet, &motion.facet_reference[at * (dim - 1) * moves],
+                               static_cast<int>(moves), moving.reference[1]);
       const int* places = surface_->places(facet);
       moving.node.insert(moving.node.end(), places, places + dim);
       const auto copy = [&](const std::vector<double>& from, std::size_t size, std::vector<double>& to) {
@@ -188,6 +78,7 @@ class EmbeddedBoundary final : public CutBoundary {
     piece.partner.weight = piece.weight;
   }
   std::shared_ptr<const BodySurface> surface_;
+  std::vector<Operand> movers_;
   mutable CellConstants constants_;  ///< computed when they are asked for
 };
 

@@ -62,8 +62,12 @@ class Coupling {
   struct SideTerm {
     std::shared_ptr<const Term> term;
     std::vector<Operand> operands;
-    /// What the term reads as Point::constant: of the cells of side 1.
-    std::shared_ptr<const CellConstant> constant = nullptr;
+    /// What the term reads as Point::constant, two at most: numbers of the cells on a side.
+    struct SideConstant {
+      int side;
+      std::shared_ptr<const CellConstant> constant;
+    };
+    std::vector<SideConstant> constants = {};
   };
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;

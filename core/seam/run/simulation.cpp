@@ -125,9 +125,12 @@ void Simulation::build_couplings(const Registry& registry) {
     std::vector<BoundTerm> terms;
     try {
       const CouplingSides sides{{built.sides.begin(), built.sides.end()}};
-      for (const auto& term : coupling->terms(sides))
-        terms.push_back(
-            {term.term, term.operands, term.constant ? built.domain->add_constant(term.constant) : -1});
+      for (const auto& term : coupling->terms(sides)) {
+        BoundTerm& bound = terms.emplace_back(BoundTerm{term.term, term.operands});
+        for (std::size_t k = 0; k < term.constants.size(); ++k)
+          bound.constants.at(k) =
+              built.domain->add_constant(term.constants[k].side, term.constants[k].constant);
+      }
       for (const auto& mismatch : coupling->mismatches(sides))
         problem_.add_mismatch({parameters.text("on") + "." + mismatch.name,
                                built.domain,

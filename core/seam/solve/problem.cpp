@@ -78,6 +78,7 @@ void Problem::finish(double time, bool shape_derivatives) {
   }
   carry_rates();
   update_cuts(time_point(time, 0, 1));
+  for (auto& [name, domain] : interfaces_) domain->follow();
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   using Role = ElementEvaluator::Role;
   for (const auto& [domain, terms] : domains_)
@@ -108,10 +109,10 @@ void Problem::carry_rates() {
 void Problem::add_swept_volumes() {
   std::set<const IntegrationDomain*> done;
   for (const auto& [surface, couplings] : domains_) {
-    if (!surface->mover() || !done.insert(surface.get()).second) continue;
+    if (surface->swept_side() < 0 || !done.insert(surface.get()).second) continue;
     std::vector<BoundTerm> swept;
     for (const auto& [volume, terms] : domains_)
-      if (volume->whole_field() == surface->fields().front())
+      if (volume->whole_field() == surface->fields()[surface->swept_side()])
         swept.insert(swept.end(), terms.begin(), terms.end());
     assembler_->add(surface, swept, ElementEvaluator::Role::sweep);
   }
@@ -265,6 +266,8 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
 
 SpaceChange Problem::update_spaces(const TimePoint& at) {
   SpaceChange change = update_cuts(at);
+  for (auto& [name, domain] : interfaces_)
+    if (communicator_.any(domain->follow())) change = std::max(change, SpaceChange::geometry);
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -31,6 +33,9 @@
 /// third template parameter G: then position and normal carry derivatives, too, and the tangent is exact
 /// where the interface follows the body. With Point<dim> the term's dependence on where its points are is
 /// left out.
+///
+/// Where the points depend on two bodies, as on both sides of a gap, the kernel says so by
+/// `static constexpr int movers = 2`.
 ///
 /// The weak form is the sum over all test functions of coefficient times test function (or its gradient),
 /// integrated: here (grad dc, D grad c). The tangent follows by automatic differentiation.
@@ -114,9 +119,11 @@ struct Point {
   double trace_size = 0;
   /// m, on interfaces: the same material point in the reference configuration of side 1's mesh.
   Vec<dim, G> partner_position;
-  double constant = 0;  ///< of side 1's cell, prepared beforehand for the term (CellConstant)
-  double time = 0;      ///< s, end of the step
-  double step = 0;      ///< s; 0 in a static problem
+  /// m, to the surface that the point may come to touch, along the normal; negative where it lies behind it.
+  G gap = std::numeric_limits<double>::infinity();
+  std::array<double, 2> constant{};  ///< of the sides' cells, prepared beforehand for the term (CellConstant)
+  double time = 0;                   ///< s, end of the step
+  double step = 0;                   ///< s; 0 in a static problem
   double theta = 1;
 };
 
@@ -270,7 +277,9 @@ Point<dim, G> point(const PointBatch& b, int q) {
   }
   p.cell_size = b.cell_size[q];
   p.trace_size = b.trace_size[q];
-  if (b.constant) p.constant = b.constant[q];
+  for (int k = 0; k < 2; ++k)
+    if (b.constant[k]) p.constant[k] = b.constant[k][q];
+  if (b.gap) p.gap = b.gap[q];
   p.time = b.time;
   p.step = b.step;
   p.theta = b.theta;
@@ -283,6 +292,15 @@ concept FollowsMotion = requires(const Kernel& kernel, const Point<dim, T>& poin
                                  Test<dim, T, typename Kernel::Tests>& test) {
   kernel.template operator()<dim, T>(point, trial, test);
 };
+
+/// The bodies whose motion the points depend on.
+template <class Kernel>
+constexpr int movers_of() {
+  if constexpr (requires { Kernel::movers; })
+    return Kernel::movers;
+  else
+    return 1;
+}
 
 }  // namespace detail
 
@@ -314,6 +332,7 @@ class KernelTerm final : public Term {
   using Reads = typename Kernel::Reads;
   using Tests = typename Kernel::Tests;
   static constexpr bool follows_motion = detail::FollowsMotion<Kernel, 2, Fad<1>>;
+  static constexpr int movers = detail::movers_of<Kernel>();
 
   /// First derivative index of a read: reads of one operand and shape share theirs. -1 for old states.
   template <int dim, class R, class... Q>
@@ -356,7 +375,7 @@ class KernelTerm final : public Term {
       return;
     }
     if constexpr (follows_motion)
-      if (points.moves > 0) return differentiate<dim, columns, dim * dim>(points, residual, tangent);
+      if (points.moves > 0) return differentiate<dim, columns, movers * dim * dim>(points, residual, tangent);
     if constexpr (columns > 0) differentiate<dim, columns, 0>(points, residual, tangent);
   }
 
@@ -398,6 +417,9 @@ class KernelTerm final : public Term {
         point.normal[i].d[columns + m] = points.normal_change[k];
         point.partner_position[i].d[columns + m] = points.partner_change[k];
       }
+    if (points.gap_change)
+      for (int m = 0; m < points.moves; ++m)
+        point.gap.d[columns + m] = points.gap_change[q * points.moves + m];
     return point;
   }
 

@@ -63,20 +63,22 @@ struct PointBatch {
   const double* normal = nullptr;      ///< [point][dimension], outward from side 0; null for cell terms
   const double* cell_size = nullptr;   ///< [point], diameter of side 0's cell
   const double* trace_size = nullptr;  ///< [point], see Point
-  const double* partner_position = nullptr;  ///< [point][dimension], see Point; null without a side 1
-  const double* constant = nullptr;          ///< [point], see Point; null when the term has none
-  const double* inputs = nullptr;            ///< [point][Signature::inputs], slot by slot: [component][row]
-  double time = 0.0;                         ///< the end of the step
-  double step = 0.0;                         ///< length of the step; 0 in a static problem
+  const double* partner_position = nullptr;        ///< [point][dimension], see Point; null without a side 1
+  const double* constant[2] = {nullptr, nullptr};  ///< [point], see Point; null when the term has none
+  const double* gap = nullptr;                     ///< [point], see Point; null where there is none
+  const double* inputs = nullptr;  ///< [point][Signature::inputs], slot by slot: [component][row]
+  double time = 0.0;               ///< the end of the step
+  double step = 0.0;               ///< length of the step; 0 in a static problem
   double theta = 1.0;
   /// d(level)/d(now) of each operand for Level::now, rate, second_rate: what the time scheme makes of it.
   const double (*level_factor)[3] = nullptr;
-  /// Where points move with the nodes of a body and the tangent is to say how: the number of moves of a
-  /// point (the dimension squared), and the derivatives of what the term reads with respect to them.
+  /// Where points move with the nodes of bodies and the tangent is to say how: the number of moves of a point
+  /// (the dimension squared for each body), and the derivatives of what the term reads with respect to them.
   int moves = 0;
   const double* position_change = nullptr;  ///< [point][dimension][move]
   const double* normal_change = nullptr;    ///< [point][dimension][move]
   const double* partner_change = nullptr;   ///< [point][dimension][move]
+  const double* gap_change = nullptr;       ///< [point][move]
   const double* input_change = nullptr;     ///< [point][Signature::inputs][move]
 };
 
