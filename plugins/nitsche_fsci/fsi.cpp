@@ -60,12 +60,7 @@ class Fsi final : public Coupling {
     penalty.number("tangential", "For the velocity along it, of the fluid's stress").otherwise("35").above(0);
     penalty.number("solid", "Of the body's stress").otherwise("2").at_least(0);
     s.object("penalty", "Factors of Nitsche's penalty", penalty).otherwise("{}");
-    s.choice(
-         "scaling",
-         "With the body's stress: which deformation of its cells scales the penalty, thesis (3.31): that in "
-         "each iteration, at the start of each step, or none",
-         {"iteration", "step", "once"})
-        .otherwise("step");
+    declare_scaling(s, "step");
     Schema jump("Given jumps between the two sides, as those of a manufactured solution.");
     jump.object("velocity", "Of the velocity, thesis (3.48)", jump_schema("A difference.", "m/s", false))
         .optional();
@@ -101,22 +96,17 @@ class Fsi final : public Coupling {
                       sides.fields[1]->name()));
     return {{make_term(SolidSided{law, jumps(), adjoint, penalty.number("solid")}, 1),
              operands,
-             {{1, std::make_shared<TraceEigenvalue>(law, refresh())}}}};
+             {{1, std::make_shared<TraceEigenvalue>(law, scaling_of(parameters_))}}}};
   }
 
-  [[nodiscard]] std::vector<Mismatch> mismatches(const CouplingSides&) const override {
-    return {{"mismatch", make_quantity(VelocityMismatch{jumps()}), operands}};
+  [[nodiscard]] std::vector<Measure> measures(const CouplingSides&) const override {
+    return {{"mismatch", {make_quantity(VelocityMismatch{jumps()}), operands}}};
   }
 
  private:
   [[nodiscard]] bool solid_sided() const { return parameters_.text("stress") == "solid"; }
   static Error only(const Location& where, const std::string& key, const std::string& side) {
     return {where, fmt::format("`{}` belongs to `stress: {}`", key, side)};
-  }
-  [[nodiscard]] CellConstant::Refresh refresh() const {
-    const std::string& scaling = parameters_.text("scaling");
-    if (scaling == "once") return CellConstant::Refresh::once;
-    return scaling == "step" ? CellConstant::Refresh::step : CellConstant::Refresh::iteration;
   }
   [[nodiscard]] Jumps jumps() const {
     if (!parameters_.has("jump")) return {};

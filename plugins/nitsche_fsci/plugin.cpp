@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/plugin/plugin.hpp"
 
+#include "contact.hpp"
 #include "fsi.hpp"
 
-SEAM_PLUGIN(registry) { seam::fsci::declare_fsi(registry); }
+SEAM_PLUGIN(registry) {
+  seam::fsci::declare_fsi(registry);
+  seam::fsci::declare_contact(registry);
+}

@@ -116,4 +116,20 @@ double TraceEigenvalue::compute(const CellTrace& cell) const {
   return cell.dimension == 2 ? largest_eigenvalue<2>(*law_, cell) : largest_eigenvalue<3>(*law_, cell);
 }
 
+void declare_scaling(Schema& schema, const std::string& otherwise) {
+  schema
+      .choice(
+          "scaling",
+          "Where a body's stress counts: which deformation of its cells scales the penalty, thesis (3.31): "
+          "that in each iteration, at the start of each step, or none",
+          {"iteration", "step", "once"})
+      .otherwise(otherwise);
+}
+
+CellConstant::Refresh scaling_of(const Parameters& parameters) {
+  const std::string& scaling = parameters.text("scaling");
+  if (scaling == "once") return CellConstant::Refresh::once;
+  return scaling == "step" ? CellConstant::Refresh::step : CellConstant::Refresh::iteration;
+}
+
 }  // namespace seam::fsci

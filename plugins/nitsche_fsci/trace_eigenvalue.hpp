@@ -2,9 +2,12 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "seam/interface/cell_constant.hpp"
 #include "seam/physics/stress_law.hpp"
+#include "seam/scene/parameters.hpp"
+#include "seam/scene/schema.hpp"
 
 namespace seam::fsci {
 
@@ -25,5 +28,9 @@ class TraceEigenvalue final : public CellConstant {
   std::shared_ptr<const StressLaw> law_;
   Refresh refresh_;
 };
+
+/// Adds the key `scaling`: which deformation the eigenvalues are those of.
+void declare_scaling(Schema& schema, const std::string& otherwise);
+[[nodiscard]] CellConstant::Refresh scaling_of(const Parameters& parameters);
 
 }  // namespace seam::fsci

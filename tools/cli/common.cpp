@@ -4,6 +4,7 @@
 
 #include "command.hpp"
 #include "run.hpp"
+#include "seam/contact/contact_interface.hpp"
 #include "seam/cut/body.hpp"
 #include "seam/interface/matching.hpp"
 #include "seam/linear/linear_solver.hpp"
@@ -28,6 +29,7 @@ Registry builtin_types() {
   Registry registry;
   register_linear_solvers(registry);
   register_interfaces(registry);
+  register_contact(registry);
   register_bodies(registry);
   return registry;
 }

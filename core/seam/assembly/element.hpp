@@ -91,9 +91,12 @@ class IntegrationDomain {
   [[nodiscard]] virtual const std::vector<Operand>& movers() const;
   /// The side whose volume ends at the elements and grows and shrinks as they move, -1 for none.
   [[nodiscard]] virtual int swept_side() const { return -1; }
-  /// Lets the points follow the present states of the movers. Collective.
+  /// Lets the points follow the present states of the movers. Collective. @param time end of the step
   /// @return true when there are other elements now, or elements have other cells
-  virtual bool follow() { return false; }
+  virtual bool follow(double time) {
+    (void)time;
+    return false;
+  }
   /// The field whose cells, all of them, are the elements; null where they are not.
   [[nodiscard]] virtual const Field* whole_field() const { return nullptr; }
   /// Finds the elements anew after this field's active cells, or the bodies that cut them, have changed.

@@ -273,7 +273,7 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
     if (!element_.motion->gap.empty()) batch.gap_change = element_.motion->gap.data();
     batch.position_change = element_.motion->position.data();
     batch.normal_change = element_.motion->normal.data();
-    batch.partner_change = partner_motion_.data();
+    if (batch.partner_position) batch.partner_change = partner_motion_.data();
     batch.input_change = input_change_.data();
   }
   const int columns = term.columns + batch.moves;

@@ -32,6 +32,9 @@ struct BoundTerm {
   std::array<int, 2> constants{-1, -1};  ///< indices into Element::constants, -1 when the term reads none
 };
 
+/// How values at the points of a domain become one number.
+enum class MeasureOf { norm, integral, least, greatest };
+
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
 /// by part (one per side and block in use), then component, then node, padded: component-major, so that the
 /// inner loops run over nodes in full vector registers.

@@ -66,6 +66,7 @@ void ElementEvaluator::compute_reference_motion() {
 
 /// How the points pass through the reference configuration of side 1's mesh.
 void ElementEvaluator::compute_partner_motion() {
+  if (element_.sides.size() < 2) return;
   const int moves = moves_;
   const ElementSide& side = element_.sides[1];
   const ShapeTable& map = *side.table[side.field->mesh().order() - 1];

@@ -3,18 +3,12 @@
 
 #include <cmath>
 
-#include "seam/term/tensor.hpp"
+#include "seam/cut/lattice.hpp"
 
 namespace seam {
 namespace {
 
-using Vector3 = Vec<3, double>;
-
-Vector3 vector(const std::array<double, 3>& x) {
-  Vector3 v;
-  v.c = x;
-  return v;
-}
+using namespace cutting;
 
 /// Derivatives of one pair along one direction in the space of all vertices.
 class Variation {
@@ -25,44 +19,44 @@ class Variation {
       opposite_share_[k] = k == 0 ? 1 - pair.on_opposite[0] - pair.on_opposite[1] : pair.on_opposite[k - 1];
     }
     for (int k = 1; k < dim_; ++k) {
-      own_edge_[k - 1] = vector(pair.own[k]) - vector(pair.own[0]);
-      opposite_edge_[k - 1] = vector(pair.opposite[k]) - vector(pair.opposite[0]);
+      own_edge_[k - 1] = pair.own[k] - pair.own[0];
+      opposite_edge_[k - 1] = pair.opposite[k] - pair.opposite[0];
     }
-    const Vector3 area = vector(facet_normal(dim_, pair.own));
+    const Vector area = facet_normal(dim_, pair.own);
     size_ = std::sqrt(dot(area, area));
     normal_ = (1 / size_) * area;
-    facing_ = vector(facet_normal(dim_, pair.opposite));
+    facing_ = facet_normal(dim_, pair.opposite);
     gram_[0] = dot(opposite_edge_[0], opposite_edge_[0]);
     gram_[1] = dot(opposite_edge_[0], opposite_edge_[1]);
     gram_[2] = dot(opposite_edge_[1], opposite_edge_[1]);
   }
   /// Moves vertex k of one of the facets in direction c.
   void move(int facet, int k, int c) {
-    Vector3 shift;
+    Vector shift{};
     shift[c] = 1;
-    Vector3 turn;
+    Vector turn{};
     weight = 0;
     if (facet == 0) {
-      const Vector3 area = area_change(k, shift);
+      const Vector area = area_change(k, shift);
       weight = dot(area, normal_) / size_;
       turn = (1 / size_) * (area - dot(area, normal_) * normal_);
     }
     normal = turn;
-    const Vector3 own = (facet == 0 ? own_share_[k] : 0.0) * shift;
-    const Vector3 opposite = (facet == 1 ? opposite_share_[k] : 0.0) * shift;
+    const Vector own = (facet == 0 ? own_share_[k] : 0.0) * shift;
+    const Vector opposite = (facet == 1 ? opposite_share_[k] : 0.0) * shift;
     // opposite + edges * on_opposite = own + gap * normal + gap_ * turn, and edges are normal to facing_.
-    const Vector3 known = own + gap_ * turn - opposite;
+    const Vector known = own + gap_ * turn - opposite;
     gap = -dot(facing_, known) / dot(facing_, normal_);
     solve(known + gap * normal_);
   }
-  Vector3 normal;
+  Vector normal{};
   double weight = 0, gap = 0;
   std::array<double, 2> on_opposite{};
 
  private:
-  [[nodiscard]] Vector3 area_change(int k, const Vector3& shift) const {
+  [[nodiscard]] Vector area_change(int k, const Vector& shift) const {
     if (dim_ == 2) {
-      Vector3 change;
+      Vector change{};
       const double sign = k == 0 ? -1 : 1;
       change[0] = sign * shift[1];
       change[1] = -sign * shift[0];
@@ -72,7 +66,7 @@ class Variation {
     if (k == 2) return cross(own_edge_[0], shift);
     return cross(shift, own_edge_[0]) - cross(shift, own_edge_[1]);
   }
-  void solve(const Vector3& way) {
+  void solve(const Vector& way) {
     const double first = dot(opposite_edge_[0], way);
     if (dim_ == 2) {
       on_opposite[0] = first / gram_[0];
@@ -86,16 +80,16 @@ class Variation {
   int dim_;
   double gap_, size_ = 0;
   std::array<double, 3> own_share_{}, opposite_share_{}, gram_{};
-  std::array<Vector3, 2> own_edge_, opposite_edge_;
-  Vector3 normal_, facing_;
+  std::array<Vector, 2> own_edge_{}, opposite_edge_{};
+  Vector normal_{}, facing_{};
 };
 
 }  // namespace
 
 std::array<double, 3> facet_normal(int dimension, const std::array<std::array<double, 3>, 3>& vertices) {
-  const Vector3 first = vector(vertices[1]) - vector(vertices[0]);
+  const Vector first = vertices[1] - vertices[0];
   if (dimension == 2) return {first[1], -first[0], 0};
-  return cross(first, vector(vertices[2]) - vector(vertices[0])).c;
+  return cross(first, vertices[2] - vertices[0]);
 }
 
 PairMotion pair_motion(const FacetPair& pair, int moves) {
@@ -106,7 +100,7 @@ PairMotion pair_motion(const FacetPair& pair, int moves) {
   for (int m = 0; m < moves; ++m) {
     const int size = pair.dimension * pair.dimension;
     variation.move(m / size, m % size / pair.dimension, m % pair.dimension);
-    for (std::size_t d = 0; d < dim; ++d) motion.normal[d * n + m] = variation.normal[static_cast<int>(d)];
+    for (std::size_t d = 0; d < dim; ++d) motion.normal[d * n + m] = variation.normal[d];
     motion.relative_weight[m] = variation.weight;
     motion.gap[m] = variation.gap;
     for (std::size_t d = 0; d + 1 < dim; ++d) motion.on_opposite[d * n + m] = variation.on_opposite[d];

@@ -1,103 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/cut_interface.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "seam/base/diagnostics.hpp"
 #include "seam/cut/cut_boundary.hpp"
 
 namespace seam {
-namespace {
-
-/// A rigid motion given as functions of time.
-class Motion {
- public:
-  explicit Motion(const Parameters& p)
-      : translation_(p.has("translation") ? p.vector_expression("translation") : std::vector<Expression>{}),
-        angle_(p.expression("rotation")),
-        about_(p.has("about") ? p.vector("about") : std::vector<double>(3, 0.0)),
-        axis_(p.vector("axis")) {}
-  static Schema schema() {
-    Schema s("A rigid motion: a rotation, then a translation.");
-    s.vector_expression("translation", "displacement as a function of t").unit("m").optional();
-    s.expression("rotation", "angle as a function of t, counter-clockwise about the axis")
-        .unit("rad")
-        .otherwise("0");
-    s.vector("about", "a point on the axis; default the origin").unit("m").optional();
-    s.vector("axis", "direction of the axis, in space").entries(3).otherwise("[0, 0, 1]");
-    return s;
-  }
-  void apply(Surface& surface, double time) const {
-    const double origin[3] = {0, 0, 0};
-    const int dim = surface.dimension;
-    const double angle = angle_(origin, dim, time);
-    for (int k = 0; k < surface.point_count(); ++k) {
-      double* x = &surface.points[static_cast<std::size_t>(k) * dim];
-      rotate(x, dim, angle);
-      for (int d = 0; d < dim && !translation_.empty(); ++d) x[d] += translation_[d](origin, dim, time);
-    }
-  }
-
- private:
-  /// Rodrigues' formula; in the plane the axis is the third one.
-  void rotate(double* x, int dim, double angle) const {
-    if (angle == 0) return;
-    double k[3] = {0, 0, 1}, r[3] = {0, 0, 0};
-    const double length = std::hypot(axis_[0], axis_[1], axis_[2]);
-    for (int d = 0; d < 3 && dim == 3; ++d) k[d] = axis_[d] / length;
-    for (int d = 0; d < dim; ++d) r[d] = x[d] - about_[d];
-    const double along = k[0] * r[0] + k[1] * r[1] + k[2] * r[2];
-    for (int d = 0; d < dim; ++d) {
-      const int e = (d + 1) % 3, f = (d + 2) % 3;
-      x[d] = about_[d] + r[d] * std::cos(angle) + (k[e] * r[f] - k[f] * r[e]) * std::sin(angle) +
-             k[d] * along * (1 - std::cos(angle));
-    }
-  }
-  std::vector<Expression> translation_;
-  Expression angle_;
-  std::vector<double> about_, axis_;
-};
-
-}  // namespace
-
-CutInterface::CutInterface(const Parameters& parameters, const Registry& types)
-    : parameters_(parameters), body_(types.create<BodyShape>("body", parameters.object("body"))) {
-  if (body_->is_in_space() && parameters.has("motion"))
-    throw Error(parameters.where("motion"),
-                fmt::format("a body '{}' is a function of space and takes no motion; write t into its own "
-                            "expression",
-                            parameters.object("body").type()));
-}
 
 Schema CutInterface::schema() {
   Schema s("The boundary of a body of given shape and motion, cut out of a field's mesh.");
   s.reference("field", "The field that lies outside the body", "field");
-  s.typed("body", "The shape of the body", "body");
-  s.object("motion", "How it moves; at rest without it", Motion::schema()).optional();
+  MovingBody::declare(s);
   return s;
 }
 
-MovingSurface CutInterface::moving_body(const BodySetting& setting) const {
-  MovingSurface shape = body_->surface(setting);
-  if (!parameters_.has("motion")) return shape;
-  return [shape = std::move(shape), motion = Motion(parameters_.object("motion"))](double time) {
-    Surface moved = shape(time);
-    motion.apply(moved, time);
-    return moved;
-  };
-}
-
 std::optional<Surface> CutInterface::body(const BodySetting& setting, double time) const {
-  return moving_body(setting)(time);
+  return body_.surface(setting)(time);
 }
 
 std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) const {
   Field& field = *setup.sides[0];
   const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
   FieldCut& cut = setup.cut(0);
-  return std::make_shared<CutBoundary>(field, cut, cut.add_body(moving_body({field.mesh(), meshes})),
+  return std::make_shared<CutBoundary>(field, cut, cut.add_body(body_.surface({field.mesh(), meshes})),
                                        setup.degree);
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "seam/cut/body.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/cut/moving_body.hpp"
 #include "seam/interface/interface.hpp"
 
 namespace seam {
@@ -14,16 +14,16 @@ namespace seam {
 /// The boundary of a body of given shape and motion that is cut out of a field's mesh. Side 0 is the field.
 class CutInterface final : public Interface {
  public:
-  CutInterface(const Parameters& parameters, const Registry& types);
+  CutInterface(const Parameters& parameters, const Registry& types)
+      : parameters_(parameters), body_(parameters, types) {}
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("field")}; }
   [[nodiscard]] std::optional<Surface> body(const BodySetting& setting, double time) const override;
   [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
 
  private:
-  [[nodiscard]] MovingSurface moving_body(const BodySetting& setting) const;
   Parameters parameters_;
-  std::unique_ptr<BodyShape> body_;
+  MovingBody body_;
 };
 
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "seam/assembly/element.hpp"
+#include "seam/assembly/evaluator.hpp"
 #include "seam/cut/body.hpp"
 #include "seam/interface/cell_constant.hpp"
 #include "seam/term/term.hpp"
@@ -59,26 +59,28 @@ struct CouplingSides {
 class Coupling {
  public:
   virtual ~Coupling() = default;
+  struct SideConstant {
+    int side;
+    std::shared_ptr<const CellConstant> constant;
+  };
   struct SideTerm {
     std::shared_ptr<const Term> term;
     std::vector<Operand> operands;
     /// What the term reads as Point::constant, two at most: numbers of the cells on a side.
-    struct SideConstant {
-      int side;
-      std::shared_ptr<const CellConstant> constant;
-    };
     std::vector<SideConstant> constants = {};
   };
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
-  /// A quantity that vanishes where the conditions hold exactly.
-  struct Mismatch {
+  /// What becomes of a quantity on the interface: one number, recorded at every step as the time series
+  /// `interface.name`.
+  struct Measure {
     std::string name;
-    std::shared_ptr<const Term> quantity;
-    std::vector<Operand> operands;
+    SideTerm quantity;
+    /// The L2 norm over the interface, as of what vanishes where the conditions hold exactly; or, of a
+    /// scalar, the integral or the extreme value at an integration point (infinite where there is none).
+    MeasureOf of = MeasureOf::norm;
   };
-  /// Recorded at every step as the time series `interface.name`: the L2 norm over the interface.
-  [[nodiscard]] virtual std::vector<Mismatch> mismatches(const CouplingSides& sides) const {
+  [[nodiscard]] virtual std::vector<Measure> measures(const CouplingSides& sides) const {
     (void)sides;
     return {};
   }

@@ -174,18 +174,34 @@ std::vector<double> interface_integral(const Problem& problem, const std::string
   return integrate(*problem.interfaces().at(interface), quantity, at, problem.communicator());
 }
 
-double interface_norm(const IntegrationDomain& interface, const BoundTerm& quantity, const TimePoint& at,
-                      const Communicator& communicator) {
-  ElementEvaluator evaluator(interface, {quantity});
-  const int dim = interface.fields().front()->mesh().dimension();
-  const auto components = static_cast<std::size_t>(quantity.term->signature(dim).values);
-  double square = 0;
-  for (int e = 0; e < interface.size(); ++e) {
+double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
+                         const Communicator& communicator) {
+  ElementEvaluator evaluator(*measure.domain, {measure.quantity});
+  const int dim = measure.domain->fields().front()->mesh().dimension();
+  const auto components = static_cast<std::size_t>(measure.quantity.term->signature(dim).values);
+  double sum = 0, square = 0;
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;
+  for (int e = 0; e < measure.domain->size(); ++e) {
     const auto& values = evaluator.compute_values(e, at);
-    for (std::size_t i = 0; i < evaluator.element().points * components; ++i)
-      square += evaluator.element().weight[i / components] * values[i] * values[i];
+    for (std::size_t i = 0; i < evaluator.element().points * components; ++i) {
+      const double weight = evaluator.element().weight[i / components];
+      sum += weight * values[i];
+      square += weight * values[i] * values[i];
+      least = std::min(least, values[i]);
+      greatest = std::max(greatest, values[i]);
+    }
   }
-  return std::sqrt(communicator.sum(square));
+  switch (measure.of) {
+    case MeasureOf::norm:
+      return std::sqrt(communicator.sum(square));
+    case MeasureOf::integral:
+      return communicator.sum(sum);
+    case MeasureOf::least:
+      return -communicator.max(-least);
+    case MeasureOf::greatest:
+      return communicator.max(greatest);
+  }
+  return 0;
 }
 
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,

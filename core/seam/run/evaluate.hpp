@@ -41,9 +41,9 @@ std::vector<double> interface_integral(const Problem& problem, const std::string
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,
                                     const std::string& unknown, const TimePoint& at);
 
-/// L2 norm of a quantity over an interface. Collective.
-double interface_norm(const IntegrationDomain& interface, const BoundTerm& quantity, const TimePoint& at,
-                      const Communicator& communicator);
+/// The number that a coupling wants recorded. Collective.
+double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
+                         const Communicator& communicator);
 
 /// A point of a field: found once, evaluated often.
 class ProbePoint {

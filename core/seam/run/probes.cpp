@@ -82,9 +82,8 @@ void Probe::record(Problem& problem, const TimePoint& at, Results& results) cons
 }
 
 void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
-  for (const InterfaceMismatch& mismatch : problem.mismatches())
-    results.series[mismatch.name].push_back(
-        interface_norm(*mismatch.domain, mismatch.quantity, at, problem.communicator()));
+  for (const InterfaceMeasure& measure : problem.measures())
+    results.series[measure.name].push_back(interface_measure(measure, at, problem.communicator()));
   for (const FieldEntry& entry : problem.fields()) {
     if (entry.cut) results.series[entry.name + ".dropped_volume"].push_back(entry.cut->dropped_volume());
     for (const FieldQuantity& integral : entry.integrals) {

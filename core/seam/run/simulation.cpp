@@ -125,16 +125,17 @@ void Simulation::build_couplings(const Registry& registry) {
     std::vector<BoundTerm> terms;
     try {
       const CouplingSides sides{{built.sides.begin(), built.sides.end()}};
-      for (const auto& term : coupling->terms(sides)) {
-        BoundTerm& bound = terms.emplace_back(BoundTerm{term.term, term.operands});
+      const auto bind = [&](const Coupling::SideTerm& term) {
+        BoundTerm bound{term.term, term.operands};
         for (std::size_t k = 0; k < term.constants.size(); ++k)
           bound.constants.at(k) =
               built.domain->add_constant(term.constants[k].side, term.constants[k].constant);
-      }
-      for (const auto& mismatch : coupling->mismatches(sides))
-        problem_.add_mismatch({parameters.text("on") + "." + mismatch.name,
-                               built.domain,
-                               {mismatch.quantity, mismatch.operands}});
+        return bound;
+      };
+      for (const auto& term : coupling->terms(sides)) terms.push_back(bind(term));
+      for (const auto& measure : coupling->measures(sides))
+        problem_.add_measure(
+            {parameters.text("on") + "." + measure.name, built.domain, bind(measure.quantity), measure.of});
       problem_.add_coupling(built.domain, std::move(terms));
     } catch (const Error& error) {
       throw Error(parameters.where(), error.what());
@@ -207,6 +208,7 @@ const Results& Simulation::run(const RunOptions& options) {
 }
 
 void Simulation::finish_timings() {
+  if (!state_.results.time.empty()) write_results();
   timings_.cut = problem_.cut_seconds();
   timings_.pattern = problem_.assembler().pattern_seconds();
   timings_.assembly = problem_.assembler().assembly_seconds();
@@ -285,8 +287,15 @@ void Simulation::record(const TimePoint& at) {
   const bool last = state_.time >= stepper_.end();
   last_point_ = at;
   if (state_.step_number % every == 0 || last) write_fields(at);
-  if (communicator_.rank() == 0) write_series((folder_ / "series.csv").string(), state_.results);
+  // A file that replaces another one takes as long as many a step.
+  constexpr double often = 1;  // s
+  if (series_watch_.seconds() > often) write_results();
   timings_.output += watch.seconds();
+}
+
+void Simulation::write_results() {
+  if (communicator_.rank() == 0) write_series((folder_ / "series.csv").string(), state_.results);
+  series_watch_ = Stopwatch();
 }
 
 void Simulation::write_fields(const TimePoint& at) {

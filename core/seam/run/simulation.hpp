@@ -70,6 +70,7 @@ class Simulation {
   [[nodiscard]] double time_error(const TimePoint& at) const;
   void record(const TimePoint& at);
   void write_fields(const TimePoint& at);
+  void write_results();
   [[nodiscard]] bool restart_due() const;
   void save_restart();
   void finish_timings();
@@ -90,7 +91,7 @@ class Simulation {
   std::unique_ptr<CutOutput> cut_;
   std::filesystem::path folder_;
   std::vector<NewtonReport> reports_;
-  Stopwatch run_watch_;
+  Stopwatch run_watch_, series_watch_;
   Timings timings_;
   TimePoint last_point_;   ///< of the last good state
   long last_fields_ = -1;  ///< step number of the fields written last

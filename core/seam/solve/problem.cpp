@@ -45,8 +45,6 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
   return *entry.field;
 }
 
-void Problem::add_mismatch(InterfaceMismatch mismatch) { mismatches_.push_back(std::move(mismatch)); }
-
 void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms) {
   domains_.emplace_back(std::move(interface), std::move(terms));
 }
@@ -78,7 +76,7 @@ void Problem::finish(double time, bool shape_derivatives) {
   }
   carry_rates();
   update_cuts(time_point(time, 0, 1));
-  for (auto& [name, domain] : interfaces_) domain->follow();
+  for (auto& [name, domain] : interfaces_) domain->follow(time);
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   using Role = ElementEvaluator::Role;
   for (const auto& [domain, terms] : domains_)
@@ -267,7 +265,7 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
 SpaceChange Problem::update_spaces(const TimePoint& at) {
   SpaceChange change = update_cuts(at);
   for (auto& [name, domain] : interfaces_)
-    if (communicator_.any(domain->follow())) change = std::max(change, SpaceChange::geometry);
+    if (communicator_.any(domain->follow(at.time))) change = std::max(change, SpaceChange::geometry);
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;

@@ -66,11 +66,12 @@ struct FieldEntry {
   std::vector<FieldQuantity> outputs, integrals;
 };
 
-/// A quantity of an interface that vanishes where a coupling's conditions hold.
-struct InterfaceMismatch {
-  std::string name;  ///< of the interface and of the quantity: "gamma.velocity"
+/// A number that a coupling wants recorded.
+struct InterfaceMeasure {
+  std::string name;  ///< of the interface and of the quantity: "gamma.mismatch"
   std::shared_ptr<const IntegrationDomain> domain;
   BoundTerm quantity;
+  MeasureOf of;
 };
 
 /// What happened to the spaces of a problem.
@@ -91,9 +92,8 @@ class Problem {
                    std::unique_ptr<Physics> physics);
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
-  /// Adds a quantity that vanishes where a coupling's conditions hold.
-  void add_mismatch(InterfaceMismatch mismatch);
-  [[nodiscard]] const std::vector<InterfaceMismatch>& mismatches() const { return mismatches_; }
+  void add_measure(InterfaceMeasure measure) { measures_.push_back(std::move(measure)); }
+  [[nodiscard]] const std::vector<InterfaceMeasure>& measures() const { return measures_; }
   /// Lets the interface be found by its name in the scene.
   void name_interface(const std::string& name, std::shared_ptr<IntegrationDomain> interface) {
     interfaces_[name] = std::move(interface);
@@ -179,7 +179,7 @@ class Problem {
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
   std::map<std::string, std::shared_ptr<IntegrationDomain>> interfaces_;
-  std::vector<InterfaceMismatch> mismatches_;
+  std::vector<InterfaceMeasure> measures_;
   std::vector<SpaceUpdate> space_updates_;
   std::unique_ptr<Assembler> assembler_;
   double cut_seconds_ = 0;

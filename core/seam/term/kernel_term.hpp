@@ -415,7 +415,7 @@ class KernelTerm final : public Term {
         const int k = (q * dim + i) * points.moves + m;
         point.position[i].d[columns + m] = points.position_change[k];
         point.normal[i].d[columns + m] = points.normal_change[k];
-        point.partner_position[i].d[columns + m] = points.partner_change[k];
+        if (points.partner_change) point.partner_position[i].d[columns + m] = points.partner_change[k];
       }
     if (points.gap_change)
       for (int m = 0; m < points.moves; ++m)

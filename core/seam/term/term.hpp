@@ -77,7 +77,7 @@ struct PointBatch {
   int moves = 0;
   const double* position_change = nullptr;  ///< [point][dimension][move]
   const double* normal_change = nullptr;    ///< [point][dimension][move]
-  const double* partner_change = nullptr;   ///< [point][dimension][move]
+  const double* partner_change = nullptr;   ///< [point][dimension][move]; null without a side 1
   const double* gap_change = nullptr;       ///< [point][move]
   const double* input_change = nullptr;     ///< [point][Signature::inputs][move]
 };

@@ -1,0 +1,24 @@
+// A half disc of radius 1 about (0, 1), fine at its lowest point.
+DefineConstant[ h = {0.1, Name "largest cell"}, fine = {0.005, Name "cell at the contact"}, reach = {0.1, Name "of the fine cells"} ];
+Point(1) = {0, 1, 0, h};
+Point(2) = {0, 0, 0, fine};
+Point(3) = {1, 1, 0, h};
+Line(1) = {1, 2};
+Circle(2) = {2, 1, 3};
+Line(3) = {3, 1};
+Curve Loop(1) = {1, 2, 3};
+Plane Surface(1) = {1};
+Field[1] = Distance;
+Field[1].PointsList = {2};
+Field[2] = Threshold;
+Field[2].InField = 1;
+Field[2].SizeMin = fine;
+Field[2].SizeMax = h;
+Field[2].DistMin = reach;
+Field[2].DistMax = 1;
+Background Field = 2;
+Mesh.MeshSizeExtendFromBoundary = 0;
+Physical Curve("axis") = {1};
+Physical Curve("arc") = {2};
+Physical Curve("top") = {3};
+Physical Surface("disc") = {1};

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/contact/facet_search.hpp"
+#include "seam/interface/body_surface.hpp"
+#include "seam/interface/cell_constant.hpp"
+
+namespace seam {
+
+/// How far from a point its opposite one may be, m.
+struct ContactWindow {
+  double reach = 0;  ///< ahead
+  double depth = 0;  ///< behind: how far bodies may have overlapped
+};
+
+/// The points of a body's surface that have another surface opposite to them, in its current configuration.
+/// An element is a facet of this rank's cells with those points that share the cell opposite.
+class ContactDomain final : public IntegrationDomain {
+ public:
+  /// @param other null where the opposite surface is given
+  /// @param obstacle the given surface; unused otherwise
+  /// @param degree to integrate exactly on a facet
+  ContactDomain(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
+                MovingSurface obstacle, ContactWindow window, int degree);
+  [[nodiscard]] int size() const override { return static_cast<int>(elements_.size()); }
+  [[nodiscard]] std::vector<Field*> fields() const override;
+  void fill(int index, Element& element) const override;
+  [[nodiscard]] const int* nodes(int index, int side, int block) const override;
+  [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
+  bool follow(double time) override;
+  int add_constant(int side, std::shared_ptr<const CellConstant> constant) override;
+  void forget_constants(bool new_step) override;
+  [[nodiscard]] std::string description() const override;
+
+ private:
+  struct Piece {
+    int facet, group, opposite_group;
+    CutPoints own, opposite;
+    std::vector<double> normal, gap;
+    PointMotion motion;
+  };
+  struct Pairing {
+    int facet, opposite_group;
+    friend bool operator==(const Pairing&, const Pairing&) = default;
+  };
+  void add_facet(const Surface& surface, int facet, const FacetSearch& search);
+  Piece& piece(int facet, int opposite_group);
+  [[nodiscard]] bool is_own_neighbourhood(int facet, int other_facet) const;
+
+  std::shared_ptr<const BodySurface> own_, other_;
+  MovingSurface obstacle_;
+  ContactWindow window_;
+  const Quadrature* rule_;
+  std::vector<int> facets_;  ///< of this rank's cells
+  std::vector<Operand> movers_;
+  std::vector<Piece> elements_;
+  struct Constant {
+    int side, number;
+  };
+  std::vector<Constant> constants_;
+  mutable std::vector<CellConstants> of_side_;  ///< computed when they are asked for
+};
+
+}  // namespace seam

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/contact/contact_interface.hpp"
+
+#include <fmt/format.h>
+
+#include "seam/contact/contact_domain.hpp"
+
+namespace seam {
+namespace {
+
+void declare_window(Schema& s) {
+  s.number("reach", "How far apart surfaces are seen to face each other; default two cells of `from`")
+      .unit("m")
+      .above(0)
+      .optional();
+  s.number(
+       "depth",
+       "How far they may have overlapped; default as far as `reach`, of a body with itself half a cell: less "
+       "than the thickness of what may touch")
+      .unit("m")
+      .above(0)
+      .optional();
+}
+
+/// Cells of a surface differ in size: the smallest one behind it says how deep another may safely be.
+ContactWindow window(const Parameters& parameters, const BodySurface& surface, bool with_itself) {
+  double smallest = std::numeric_limits<double>::max(), largest = 0;
+  for (int g = 0; g < surface.group_count(); ++g) {
+    smallest = std::min(smallest, surface.cell(g).diameter);
+    largest = std::max(largest, surface.cell(g).diameter);
+  }
+  const double reach = parameters.has("reach") ? parameters.number("reach") : 2 * largest;
+  const double depth = with_itself ? smallest / 2 : reach;
+  return {reach, parameters.has("depth") ? parameters.number("depth") : depth};
+}
+
+std::shared_ptr<const BodySurface> body_surface(const Parameters& parameters, const std::string& key,
+                                                const std::string& boundaries, InterfaceSetup& setup,
+                                                int side) {
+  const std::string displacement = setup.displacement(side);
+  if (displacement.empty())
+    throw Error(parameters.where(key),
+                fmt::format("field '{}' has no displacement, so that it has no surface that moves",
+                            parameters.text(key)));
+  return std::make_shared<const BodySurface>(*setup.sides[side], parameters.names(boundaries), displacement);
+}
+
+/// Beyond the traces' own degree, for a pressure that sets in within a facet.
+constexpr int extra_degree = 2;
+
+}  // namespace
+
+Schema ContactInterface::schema() {
+  Schema s("A deforming body's surface and what lies opposite to it, on another body or on itself.");
+  s.reference("from", "The body whose points look for opposite ones", "field");
+  s.reference("to", "The body on which these are; may be the same", "field");
+  s.names("boundaries", "Parts of the boundary of `from`; default all")
+      .naming("boundary:from")
+      .otherwise("[]");
+  s.names("opposite", "Parts of the boundary of `to`; default all").naming("boundary:to").otherwise("[]");
+  declare_window(s);
+  return s;
+}
+
+std::shared_ptr<IntegrationDomain> ContactInterface::build(InterfaceSetup& setup) const {
+  const auto own = body_surface(parameters_, "from", "boundaries", setup, 0);
+  const bool same =
+      setup.sides[0] == setup.sides[1] && parameters_.names("boundaries") == parameters_.names("opposite");
+  const auto other = same ? own : body_surface(parameters_, "to", "opposite", setup, 1);
+  return std::make_shared<ContactDomain>(own, other, MovingSurface{},
+                                         window(parameters_, *own, setup.sides[0] == setup.sides[1]),
+                                         setup.degree + extra_degree);
+}
+
+Schema ObstacleInterface::schema() {
+  Schema s("A deforming body's surface and what lies opposite to it on a rigid body of given motion.");
+  s.reference("from", "The body whose points look for opposite ones", "field");
+  s.names("boundaries", "Parts of its boundary; default all").naming("boundary:from").otherwise("[]");
+  MovingBody::declare(s);
+  declare_window(s);
+  return s;
+}
+
+std::shared_ptr<IntegrationDomain> ObstacleInterface::build(InterfaceSetup& setup) const {
+  const auto own = body_surface(parameters_, "from", "boundaries", setup, 0);
+  const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
+  return std::make_shared<ContactDomain>(own, nullptr, obstacle_.surface({setup.sides[0]->mesh(), meshes}),
+                                         window(parameters_, *own, false), setup.degree + extra_degree);
+}
+
+void register_contact(Registry& registry) {
+  registry.add<Interface>(
+      "interface", "contact", ContactInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<ContactInterface>(p); });
+  registry.add<Interface>("interface", "obstacle", ObstacleInterface::schema(),
+                          [](const Parameters& p, const Registry& types) {
+                            return std::make_unique<ObstacleInterface>(p, types);
+                          });
+}
+
+}  // namespace seam

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "seam/cut/moving_body.hpp"
+#include "seam/interface/interface.hpp"
+
+namespace seam {
+
+/// The surface of a deforming body where it may come to touch another body, or itself: of each of its points
+/// the one opposite to it at the end of the current normal, and the gap between them (thesis (6.2)). Side 0
+/// is the body, side 1 the other one. Points without an opposite one are no part of it.
+///
+/// One such interface looks from one body at the other; two of them look both ways.
+class ContactInterface final : public Interface {
+ public:
+  explicit ContactInterface(const Parameters& parameters) : parameters_(parameters) {}
+  static Schema schema();
+  [[nodiscard]] std::vector<std::string> fields() const override {
+    return {parameters_.text("from"), parameters_.text("to")};
+  }
+  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+
+ private:
+  Parameters parameters_;
+};
+
+/// The same where the other body is rigid, of given shape and motion: there is no side 1.
+class ObstacleInterface final : public Interface {
+ public:
+  ObstacleInterface(const Parameters& parameters, const Registry& types)
+      : parameters_(parameters), obstacle_(parameters, types) {}
+  static Schema schema();
+  [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("from")}; }
+  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+
+ private:
+  Parameters parameters_;
+  MovingBody obstacle_;
+};
+
+/// Registers "contact" and "obstacle".
+void register_contact(Registry& registry);
+
+}  // namespace seam

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/contact/facet_search.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+using namespace seam;
+
+namespace {
+
+/// A regular polygon about the origin, counter-clockwise.
+Surface polygon(int corners, double radius) {
+  Surface surface;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    surface.points.insert(surface.points.end(), {radius * std::cos(angle), radius * std::sin(angle)});
+    surface.facets.insert(surface.facets.end(), {k, (k + 1) % corners});
+  }
+  return surface;
+}
+
+/// The faces of an octahedron about the origin, normals outwards.
+Surface octahedron(double radius) {
+  Surface surface;
+  surface.dimension = 3;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      for (int d = 0; d < 3; ++d) surface.points.push_back(d == axis ? sign * radius : 0.0);
+  for (int x = 0; x < 2; ++x)
+    for (int y = 0; y < 2; ++y)
+      for (int z = 0; z < 2; ++z) {
+        const bool mirrored = (x + y + z) % 2 == 1;
+        surface.facets.insert(surface.facets.end(), {x, mirrored ? 4 + z : 2 + y, mirrored ? 2 + y : 4 + z});
+      }
+  return surface;
+}
+
+std::array<double, 3> place(const Surface& surface, const FacetSearch::Hit& hit) {
+  std::array<double, 3> x{};
+  const int dim = surface.dimension;
+  const double share[3] = {1 - hit.on_facet[0] - hit.on_facet[1], hit.on_facet[0], hit.on_facet[1]};
+  for (int k = 0; k < dim; ++k)
+    for (int d = 0; d < dim; ++d)
+      x[d] += share[k] * surface.points[surface.facets[hit.facet * dim + k] * dim + d];
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("a ray meets the side of a body that faces it, from outside and from within") {
+  const FacetSearch search(polygon(7, 1));
+  const double inside = std::cos(std::numbers::pi / 7);  // distance of the sides
+  for (const double distance : {2.0, 0.999, 0.7}) {
+    const double x[] = {-distance, 0.01}, direction[] = {1, 0};
+    const auto hit = search.find(x, direction, 0.5, 3);
+    REQUIRE(hit);
+    CHECK(hit->gap == Approx(distance - inside).margin(1e-12));
+    CHECK(place(search.surface(), *hit)[1] == Approx(0.01));
+  }
+  SECTION("not beyond reach or depth, nor the far side") {
+    const double ahead[] = {-2, 0}, within[] = {-0.2, 0}, direction[] = {1, 0};
+    CHECK_FALSE(search.find(ahead, direction, 0.5, 1));
+    CHECK_FALSE(search.find(within, direction, 0.5, 3));
+    CHECK_FALSE(search.find(ahead, direction, 0.5, 3, [](int, double) { return true; }));
+  }
+}
+
+TEST_CASE("no ray slips through between facets") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  const Surface body = octahedron(1);
+  const FacetSearch search(body);
+  for (int k = 0; k < 2000; ++k) {
+    // Towards the centre from all sides, every other time exactly through an edge or a corner.
+    double n[3] = {any(random), any(random), any(random)};
+    if (k % 2 == 1) n[k / 2 % 3] = 0;
+    if (k % 4 == 3) n[(k / 2 + 1) % 3] = 0;
+    const double length = std::hypot(n[0], n[1], n[2]);
+    double x[3];
+    for (int d = 0; d < 3; ++d) {
+      n[d] /= length;
+      x[d] = -2 * n[d];
+    }
+    const auto hit = search.find(x, n, 0.1, 3);
+    REQUIRE(hit);
+    // The surface is |x| + |y| + |z| = 1.
+    const auto at = place(body, *hit);
+    CHECK(std::abs(at[0]) + std::abs(at[1]) + std::abs(at[2]) == Approx(1).epsilon(1e-9));
+    CHECK(hit->gap == Approx(2 - 1 / (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]))).epsilon(1e-9));
+  }
+}
