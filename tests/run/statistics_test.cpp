@@ -27,13 +27,16 @@ time: {end: 1, step: {initial: 0.1}}
 output:
   fields: false
   probes: {tip: {field: block, at: [1, 0.5], quantity: displacement}}
-  formulas: {change: block_volume - 1 + t}
+  formulas: {change: block_volume - 1 + t, push: "t > 0.25 && t < 0.55 ? 1 : 0"}
   statistics:
     bend: {of: tip.x, what: curvature}
     bend_before: {of: tip.x, what: curvature, to: 0.61}
     kink: {of: tip.x, what: kink}
     at: {of: tip.x, what: kink_time}
     last: {of: change, what: maximum, to: 0.41}
+    onset: {of: tip.x, what: onset}
+    release: {of: tip.x, what: release}
+    push_ends: {of: push, what: release}
 )scene");
   const auto run = seam("run " + scene + " --quiet --no-picture --folder " + (folder.path / "out").string());
   CAPTURE(run.output);
@@ -43,6 +46,9 @@ output:
   CHECK(results["bend_before"].get<double>() == Approx(1).epsilon(1e-8));
   CHECK(results["kink"].get<double>() == Approx(31).epsilon(1e-8));
   CHECK(results["at"].get<double>() == Approx(0.6));
+  CHECK(results["onset"].get<double>() == Approx(0.1));
+  CHECK(results["release"].is_null());  // infinite: it lasts to the end
+  CHECK(results["push_ends"].get<double>() == Approx(0.6));
   CHECK(results["last"].get<double>() == Approx(0.4));
   CHECK(results["block.volume_rate"].get<double>() == Approx(0).margin(1e-8));
 }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 
 namespace seam {
@@ -40,6 +41,19 @@ struct Window {
     double most = 0;
     for (std::size_t k = 1; k < value.size(); ++k) most = std::max(most, value[k] - value[k - 1]);
     return most;
+  }
+  /// The first step at which the value is above 0; infinite when it never is.
+  [[nodiscard]] double onset() const {
+    const auto first = std::find_if(value.begin(), value.end(), [](double v) { return v > 0; });
+    return first == value.end() ? std::numeric_limits<double>::infinity() : time[first - value.begin()];
+  }
+  /// The step after the last one at which the value is above 0; infinite when it never is or still is at the
+  /// end.
+  [[nodiscard]] double release() const {
+    const auto last = std::find_if(value.rbegin(), value.rend(), [](double v) { return v > 0; });
+    const auto after = static_cast<std::size_t>(last.base() - value.begin());
+    return last == value.rend() || after == value.size() ? std::numeric_limits<double>::infinity()
+                                                         : time[after];
   }
   /// Largest deviation of a value from the cubic through its four neighbours, over the largest magnitude. For
   /// a smooth series at equal steps it falls with the fourth power of the step; jumps keep it up.
@@ -98,6 +112,8 @@ double statistic(const Parameters& p, const Results& results) {
   if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
   if (what == "integral") return window.integral();
   if (what == "rise") return window.rise();
+  if (what == "onset") return window.onset();
+  if (what == "release") return window.release();
   if (what == "roughness") return window.roughness();
   if (bends) return curvature_statistic(what, window);
   return what == "mean" ? window.mean() : window.frequency();

@@ -332,12 +332,17 @@ void Simulation::finish_errors() {
   }
   finish_statistics(scene_, state_.results);
   std::vector<double> iterations;
-  for (const NewtonReport& report : reports_)
+  int most_linear = 0;
+  for (const NewtonReport& report : reports_) {
     iterations.push_back(static_cast<double>(report.history.size()) - 1);
+    for (const NewtonIteration& iteration : report.history)
+      most_linear = std::max(most_linear, iteration.linear_iterations);
+  }
   std::sort(iterations.begin(), iterations.end());
   state_.results.once["newton.iterations.median"] =
       iterations.empty() ? 0 : iterations[iterations.size() / 2];
   state_.results.once["newton.iterations.most"] = iterations.empty() ? 0 : iterations.back();
+  state_.results.once["linear.iterations.most"] = most_linear;
   state_.results.once["unknowns"] = static_cast<double>(unknowns());
 }
 

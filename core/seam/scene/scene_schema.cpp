@@ -118,9 +118,11 @@ Schema statistic_schema() {
       "integral: over time; frequency: of the upward crossings of the mean; rise: largest increase from one "
       "step to the next; roughness: largest deviation of a value from the cubic through its four "
       "neighbours, over the largest magnitude; curvature: largest second derivative in time; kink: the same "
-      "over the median one; kink_time: where it is",
+      "over the median one; kink_time: where it is; onset: the first time at which it is above 0, infinite "
+      "when "
+      "it never is; release: the time after the last such, infinite when it lasts to the end",
       {"maximum", "minimum", "mean", "integral", "frequency", "rise", "roughness", "curvature", "kink",
-       "kink_time"});
+       "kink_time", "onset", "release"});
   schema.number("from", "time from which on it counts; default the start").unit("s").optional();
   schema.number("to", "time up to which it counts; default the end").unit("s").optional();
   return schema;
