@@ -7,6 +7,8 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/contact/facet_search.hpp"
+#include "seam/contact/gap_motion.hpp"
+#include "seam/cut/lattice.hpp"
 #include "seam/interface/body_surface.hpp"
 #include "seam/interface/cell_constant.hpp"
 
@@ -48,7 +50,21 @@ class ContactDomain final : public IntegrationDomain {
     int facet, opposite_group;
     friend bool operator==(const Pairing&, const Pairing&) = default;
   };
+  /// Where the facet opposite begins or ends.
+  struct Break {
+    double share;  ///< of a facet's length
+    int vertex;    ///< of the opposite surface; -1 for the end of the facet itself
+  };
+  struct Stretch {
+    Break from, to;
+    [[nodiscard]] double length() const { return to.share - from.share; }
+  };
   void add_facet(const Surface& surface, int facet, const FacetSearch& search);
+  [[nodiscard]] std::vector<Stretch> stretches(const std::array<cutting::Vector, 3>& own,
+                                               const cutting::Vector& normal,
+                                               const FacetSearch& search) const;
+  static void stretch_motion(const FacetPair& pair, const Stretch& stretch, const int* vertex, int moves,
+                             std::vector<double>& slide, std::vector<double>& growth);
   Piece& piece(int facet, int opposite_group);
   [[nodiscard]] bool is_own_neighbourhood(int facet, int other_facet) const;
 

@@ -15,8 +15,8 @@ void declare_window(Schema& s) {
       .optional();
   s.number(
        "depth",
-       "How far they may have overlapped; default as far as `reach`, of a body with itself half a cell: less "
-       "than the thickness of what may touch")
+       "How far they may have overlapped, less than the thickness of what may touch; default half a cell of "
+       "`from`, the largest, or the smallest where a body may touch itself")
       .unit("m")
       .above(0)
       .optional();
@@ -30,7 +30,7 @@ ContactWindow window(const Parameters& parameters, const BodySurface& surface, b
     largest = std::max(largest, surface.cell(g).diameter);
   }
   const double reach = parameters.has("reach") ? parameters.number("reach") : 2 * largest;
-  const double depth = with_itself ? smallest / 2 : reach;
+  const double depth = (with_itself ? smallest : largest) / 2;
   return {reach, parameters.has("depth") ? parameters.number("depth") : depth};
 }
 

@@ -7,6 +7,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 
+#include "seam/contact/gap_motion.hpp"
 #include "seam/cut/lattice.hpp"
 
 namespace seam {
@@ -19,8 +20,9 @@ using Entry = std::pair<Box, int>;
 
 /// A line that passes this part of a facet's size beside it still meets it: none slips between two facets.
 constexpr double slack = 1e-10;
-/// Cosine between direction and facet from which on the line counts as parallel to it.
-constexpr double parallel = 1e-3;
+/// Least cosine between the direction and what looks against it: at a grazing angle the way to a facet says
+/// nothing about how far apart surfaces are.
+constexpr double facing = 0.5;
 
 using namespace cutting;
 
@@ -36,7 +38,7 @@ std::optional<FacetSearch::Hit> meet_segment(const Surface& surface, int facet, 
                                              const Vector& n) {
   const Vector b = vertex(surface, facet, 0), t = vertex(surface, facet, 1) - b, r = x - b;
   const double against = cross(t, n)[2];  // the outward normal times -n times the length
-  if (against < parallel * std::sqrt(dot(t, t))) return std::nullopt;
+  if (against < facing * std::sqrt(dot(t, t))) return std::nullopt;
   const double share = cross(r, n)[2] / against;
   if (share < -slack || share > 1 + slack) return std::nullopt;
   return FacetSearch::Hit{facet, {share, 0}, dot(share * t - r, n)};
@@ -48,7 +50,7 @@ std::optional<FacetSearch::Hit> meet_triangle(const Surface& surface, int facet,
                second_edge = vertex(surface, facet, 2) - b, area = cross(first_edge, second_edge), r = x - b,
                across = cross(n, r);
   const double against = -dot(area, n);
-  if (against < parallel * std::sqrt(dot(area, area))) return std::nullopt;
+  if (against < facing * std::sqrt(dot(area, area))) return std::nullopt;
   const double first = -dot(second_edge, across) / against, second = dot(first_edge, across) / against;
   if (first < -slack || second < -slack || first + second > 1 + slack) return std::nullopt;
   return FacetSearch::Hit{facet, {first, second}, dot(first * first_edge + second * second_edge - r, n)};
@@ -81,6 +83,21 @@ FacetSearch::FacetSearch(Surface surface) : surface_(std::move(surface)), tree_(
 FacetSearch::~FacetSearch() = default;
 FacetSearch::FacetSearch(FacetSearch&&) noexcept = default;
 FacetSearch& FacetSearch::operator=(FacetSearch&&) noexcept = default;
+
+void FacetSearch::find_near(const double* low, const double* high, const double* direction,
+                            std::vector<int>& facets) const {
+  const auto query =
+      bg::index::intersects(Box(Corner(low[0], low[1], low[2]), Corner(high[0], high[1], high[2])));
+  for (auto entry = tree_->index.qbegin(query); entry != tree_->index.qend(); ++entry) {
+    const int dim = surface_.dimension, facet = entry->second;
+    const std::array<Vector, 3> corner{vertex(surface_, facet, 0), vertex(surface_, facet, 1),
+                                       dim == 3 ? vertex(surface_, facet, 2) : Vector{}};
+    const Vector outwards = facet_normal(dim, corner);
+    double along = 0;
+    for (int d = 0; d < dim; ++d) along += outwards[d] * direction[d];
+    if (-along >= facing * std::sqrt(dot(outwards, outwards))) facets.push_back(facet);
+  }
+}
 
 std::optional<FacetSearch::Hit> FacetSearch::find(const double* x, const double* direction, double depth,
                                                   double reach, const Exclude& exclude) const {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "seam/cut/surface.hpp"
 
@@ -25,13 +26,16 @@ class FacetSearch {
   };
   /// True where a facet is no partner of the point that asks, if its gap is this.
   using Exclude = std::function<bool(int facet, double gap)>;
-  /// Where the line through a point first meets a facet whose outside faces the direction: that with the gap
-  /// of least size.
+  /// Where the line through a point first meets a facet whose outside faces the direction, within 60 degrees:
+  /// that with the gap of least size.
   /// @param x, direction [dimension]; the direction has length 1
   /// @param depth how far behind the point, m
   /// @param reach how far ahead of it, m
   [[nodiscard]] std::optional<Hit> find(const double* x, const double* direction, double depth, double reach,
                                         const Exclude& exclude = {}) const;
+  /// Appends the facets whose outside faces a direction and whose boxes meet a box. @param low, high [3]
+  void find_near(const double* low, const double* high, const double* direction,
+                 std::vector<int>& facets) const;
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
  private:

@@ -31,7 +31,8 @@ class Variation {
     gram_[2] = dot(opposite_edge_[1], opposite_edge_[1]);
   }
   /// Moves vertex k of one of the facets in direction c.
-  void move(int facet, int k, int c) {
+  /// @param slide how the point moves along its own facet meanwhile
+  void move(int facet, int k, int c, const std::array<double, 2>& slide) {
     Vector shift{};
     shift[c] = 1;
     Vector turn{};
@@ -42,7 +43,8 @@ class Variation {
       turn = (1 / size_) * (area - dot(area, normal_) * normal_);
     }
     normal = turn;
-    const Vector own = (facet == 0 ? own_share_[k] : 0.0) * shift;
+    const Vector own =
+        (facet == 0 ? own_share_[k] : 0.0) * shift + slide[0] * own_edge_[0] + slide[1] * own_edge_[1];
     const Vector opposite = (facet == 1 ? opposite_share_[k] : 0.0) * shift;
     // opposite + edges * on_opposite = own + gap * normal + gap_ * turn, and edges are normal to facing_.
     const Vector known = own + gap_ * turn - opposite;
@@ -92,14 +94,16 @@ std::array<double, 3> facet_normal(int dimension, const std::array<std::array<do
   return cross(first, vertices[2] - vertices[0]);
 }
 
-PairMotion pair_motion(const FacetPair& pair, int moves) {
+PairMotion pair_motion(const FacetPair& pair, int moves, const std::vector<double>& slide) {
   const auto dim = static_cast<std::size_t>(pair.dimension), n = static_cast<std::size_t>(moves);
   PairMotion motion{std::vector<double>(dim * n), std::vector<double>(n), std::vector<double>(n),
                     std::vector<double>((dim - 1) * n)};
   Variation variation(pair);
   for (int m = 0; m < moves; ++m) {
     const int size = pair.dimension * pair.dimension;
-    variation.move(m / size, m % size / pair.dimension, m % pair.dimension);
+    std::array<double, 2> along{};
+    for (std::size_t d = 0; d + 1 < dim && !slide.empty(); ++d) along[d] = slide[d * n + m];
+    variation.move(m / size, m % size / pair.dimension, m % pair.dimension, along);
     for (std::size_t d = 0; d < dim; ++d) motion.normal[d * n + m] = variation.normal[d];
     motion.relative_weight[m] = variation.weight;
     motion.gap[m] = variation.gap;

@@ -23,7 +23,9 @@ struct PairMotion {
   std::vector<double> on_opposite;      ///< [dimension - 1][move], 1/m
 };
 
-PairMotion pair_motion(const FacetPair& pair, int moves);
+/// @param slide how on_own changes, [dimension - 1][move], 1/m; empty for a point that keeps its place on the
+/// facet
+PairMotion pair_motion(const FacetPair& pair, int moves, const std::vector<double>& slide = {});
 
 /// Outward normal of a facet, as Surface has it, with the length of its area (twice that in space).
 std::array<double, 3> facet_normal(int dimension, const std::array<std::array<double, 3>, 3>& vertices);
