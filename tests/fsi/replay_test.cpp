@@ -26,7 +26,7 @@ TEST_CASE("recorded steps give the same on 1, 2 and 3 ranks and after a restart"
   const Folder folder;
   // With few iterations the first steps fail and are halved.
   const std::string steps =
-      "--set parameters.step=0.02 --set time.end=0.28 --set solver.newton.maximum_iterations=4 ";
+      "--set parameters.step=0.02 --set time.end=0.28 --set solver.newton.maximum_iterations=3 ";
   REQUIRE(seam(run(folder, "first", steps)).code == 0);
   const std::string first = folder.read("first/series.csv"), replay = steps + again(folder, "first");
   const auto rows = table(first);

@@ -27,7 +27,7 @@ time: {end: 1, step: {initial: 0.1}}
 output:
   fields: false
   probes: {tip: {field: block, at: [1, 0.5], quantity: displacement}}
-  formulas: {change: block_volume - 1 + t, push: "t > 0.25 && t < 0.55 ? 1 : 0"}
+  formulas: {change: block_volume - 1 + t, push: "tip_x > 0.03 && tip_x < 0.15 ? 1 : 0"}
   statistics:
     bend: {of: tip.x, what: curvature}
     bend_before: {of: tip.x, what: curvature, to: 0.61}
