@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact.hpp"
 
-#include <fmt/format.h>
-
 #include "contact_kernels.hpp"
+#include "contact_sides.hpp"
 #include "seam/interface/interface.hpp"
 #include "trace_eigenvalue.hpp"
 
@@ -33,6 +32,7 @@ class Contact final : public Coupling {
         .otherwise("1/2")
         .above(0)
         .at_most(1);
+    declare_stress(s);
     declare_scaling(s, "once");
     return s;
   }
@@ -53,10 +53,10 @@ class Contact final : public Coupling {
  private:
   [[nodiscard]] bool both() const { return parameters_.text("acts_on") == "both"; }
   [[nodiscard]] OneBody one_body(const CouplingSides& sides) const {
-    return {law(sides, 0), parameters_.number("penalty")};
+    return {law_of(sides, 0), parameters_.number("penalty")};
   }
   [[nodiscard]] TwoBodies two_bodies(const CouplingSides& sides) const {
-    return {law(sides, 0), law(sides, 1), parameters_.number("penalty")};
+    return {body_pull(parameters_, sides, 0, 1, parameters_.number("penalty"))};
   }
   [[nodiscard]] static std::vector<Operand> operands(const CouplingSides& sides) {
     if (sides.fields.size() == 1) return {{0, "displacement"}};
@@ -65,7 +65,7 @@ class Contact final : public Coupling {
   [[nodiscard]] std::vector<SideConstant> scales(const CouplingSides& sides) const {
     std::vector<SideConstant> result;
     for (int side = 0; side < static_cast<int>(sides.fields.size()); ++side)
-      result.push_back({side, std::make_shared<TraceEigenvalue>(law(sides, side), scaling_of(parameters_))});
+      result.push_back({side, scale_of(parameters_, sides, side)});
     return result;
   }
   template <class Bodies>
@@ -73,22 +73,12 @@ class Contact final : public Coupling {
     using State = ContactState<Bodies>;
     using Number = typename State::Number;
     const auto measure = [&](const std::string& name, Number number, MeasureOf of) {
-      return Measure{name, {make_quantity(State{bodies, number}), operands(sides), scales(sides)}, of};
+      return Measure{name, {{make_quantity(State{bodies, number}), operands(sides), scales(sides)}}, of};
     };
     return {measure("gap", Number::gap, MeasureOf::least),
             measure("overlap", Number::overlap, MeasureOf::norm),
             measure("area", Number::touches, MeasureOf::integral),
             measure("pressure", Number::pressure, MeasureOf::greatest)};
-  }
-  [[nodiscard]] std::shared_ptr<const StressLaw> law(const CouplingSides& sides, int side) const {
-    static_cast<void>(sides.fields[side]->place("displacement"));
-    const auto& law = sides.fields[side]->stress_law();
-    if (!law)
-      throw Error(
-          fmt::format("contact needs bodies that make their stress known; field '{}' does not (a solid "
-                      "does, unless its formulation is mixed)",
-                      sides.fields[side]->name()));
-    return law;
   }
   Parameters parameters_;
 };

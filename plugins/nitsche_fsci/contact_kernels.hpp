@@ -26,21 +26,40 @@ T normal_stress(const StressLaw& law, const Mat<dim, dim, T>& gradient, const Ve
   return dot(normal, body_traction<dim, T>(law, gradient, normal));
 }
 
-/// t, or more than 0 where nothing touches. Point::constant: lambda_e of the cells on both sides, see
-/// TraceEigenvalue. omega = lambda' / (lambda + lambda') and gamma = gamma_0 (omega lambda + (1 - omega)
-/// lambda'), thesis (6.16), (6.17).
-struct TwoBodies {
-  using Reads = Slots<Gradient<OwnDisplacement>, Gradient<OtherDisplacement>>;
+/// Whose stress stands for that between two bodies.
+enum class Whose { both, own, other };
+
+/// S of two bodies. Point::constant: lambda_e of the cells on both sides, see TraceEigenvalue. With the
+/// stress of both omega = lambda' / (lambda + lambda') and gamma = gamma_0 (omega lambda + (1 - omega)
+/// lambda'), thesis (6.16), (6.17); else omega is 1 or 0.
+struct BodyPull {
   std::shared_ptr<const StressLaw> own, other;
   double penalty;  ///< gamma_0
+  Whose stress = Whose::both;
+
+  template <int dim, class T, class G>
+  [[nodiscard]] T operator()(const Point<dim, G>& x, const Vec<dim, G>& normal,
+                             const Mat<dim, dim, T>& own_gradient,
+                             const Mat<dim, dim, T>& other_gradient) const {
+    const double weight = stress == Whose::both ? x.constant[1] / (x.constant[0] + x.constant[1])
+                                                : (stress == Whose::own ? 1.0 : 0.0);
+    const double gamma = penalty * (weight * x.constant[0] + (1 - weight) * x.constant[1]);
+    T pull = T(gamma * x.gap);
+    if (weight > 0) pull += weight * normal_stress<dim, T>(*own, own_gradient, normal);
+    if (weight < 1) pull += (1 - weight) * normal_stress<dim, T>(*other, other_gradient, normal);
+    return pull;
+  }
+};
+
+/// t, or more than 0 where nothing touches.
+struct TwoBodies {
+  using Reads = Slots<Gradient<OwnDisplacement>, Gradient<OtherDisplacement>>;
+  BodyPull pull;
 
   template <int dim, class T, class G>
   [[nodiscard]] T trial(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
-    const double weight = x.constant[1] / (x.constant[0] + x.constant[1]);
-    const double gamma = penalty * (weight * x.constant[0] + (1 - weight) * x.constant[1]);
-    return weight * normal_stress<dim, T>(*own, s.gradient(OwnDisplacement{}), x.normal) +
-           (1 - weight) * normal_stress<dim, T>(*other, s.gradient(OtherDisplacement{}), x.normal) +
-           gamma * x.gap;
+    return pull.operator()<dim, T, G>(x, x.normal, s.gradient(OwnDisplacement{}),
+                                      s.gradient(OtherDisplacement{}));
   }
 };
 

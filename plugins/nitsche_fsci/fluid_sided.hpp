@@ -7,22 +7,59 @@
 
 namespace seam::fsci {
 
+/// Phi of thesis (3.27) times h_Gamma: mu + h c_v rho |v| + h^2 c_t rho/(theta dt), Pa s. |v| falls to zero
+/// smoothly below a tenth of the speed at which convection matters: with its kink Newton's method would limp
+/// wherever the fluid rests.
+template <int dim, class T, class G>
+T resistance(const Flow& flow, const Point<dim, G>& x, const Vec<dim, T>& velocity) {
+  using std::sqrt;
+  constexpr double c_v = 1.0 / 6, c_t = 1.0 / 12;
+  const double h = x.trace_size;
+  T phi = T(flow.viscosity + (x.step > 0 ? h * h * c_t * flow.density / (x.theta * x.step) : 0.0));
+  if (!flow.convection) return phi;
+  const double slow = 0.1 * flow.viscosity / (flow.density * h);
+  const T square = dot(velocity, velocity);
+  return phi + (h * c_v * flow.density) * (square / sqrt(square + slow * slow));
+}
+
+/// Navier's slip length: a constant one, and near another surface more of it, thesis (6.30): `near` r (r/g -
+/// 1) in gaps g narrower than r. Where surfaces touch nothing is left of friction.
+struct Slip {
+  double length;     ///< m, may be infinite
+  double near = 0;   ///< kappa_0
+  double reach = 0;  ///< r, m; 0: the width of the fluid's cell
+
+  /// The length is `resisting` to `gliding`, so that none of them need be infinite.
+  template <class T>
+  struct Ratio {
+    T gliding, resisting;
+  };
+  template <int dim, class T, class G>
+  [[nodiscard]] Ratio<T> ratio(const Point<dim, G>& x) const {
+    if (std::isinf(length)) return {T(1.0), T(0.0)};
+    const double r = reach > 0 ? reach : x.cell_size / std::sqrt(static_cast<double>(dim));
+    if (near == 0 || plain(x.gap) >= r) return {T(length), T(1.0)};
+    if (plain(x.gap) <= 0) return {T(1.0), T(0.0)};
+    return {T(near * r * (r - x.gap) + length * x.gap), T(x.gap)};
+  }
+};
+
 /// The traction between fluid and body is the fluid's (thesis (3.26), (3.27); with Navier slip in the manner
 /// of (4.5)). With n out of the fluid, J = v - du/dt - g_v, P = I - n n^T, Phi = h_Gamma phi of (3.27),
-/// lambda = slip_length/mu and beta = h_Gamma/(gamma_t Phi):
+/// lambda = slip length/mu and beta = h_Gamma/(gamma_t Phi):
 ///
 ///   <dv - du, t - sigma n + gamma_n Phi/h_Gamma (J.n) n> - <du, g_sigma> - <dp, J.n>
 ///   + xi <2 mu eps(dv) n, (J.n) n + beta t>,   t = [P J + lambda P sigma n] / (lambda + beta).
 ///
-/// slip_length 0 is no slip: t = gamma_t Phi/h_Gamma P J, the form of (3.26). At xi = +1 the viscous adjoint
+/// Length 0 is no slip: t = gamma_t Phi/h_Gamma P J, the form of (3.26). At xi = +1 the viscous adjoint
 /// term cancels the consistency term: stable for every penalty.
 struct FluidSided {
   using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Displacement>>;
   using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>>;
   Flow flow;
   Jumps jumps;
-  double slip_length;  ///< m, may be infinite
-  double adjoint;      ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
+  Slip slip;
+  double adjoint;  ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
   double normal_penalty, tangential_penalty;
 
   template <int dim, class T, class G>
@@ -34,12 +71,13 @@ struct FluidSided {
     Vec<dim, T> force = ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n;
     force -= s.value(Pressure{}) * n;
 
-    const T phi = resistance<dim, T, G>(x, velocity);
+    const T phi = resistance<dim, T, G>(flow, x, velocity);
     const T beta = x.trace_size / (tangential_penalty * phi);
-    const T sum = slip_length / flow.viscosity + beta;
-    const Vec<dim, T> along = (1.0 / sum) * (jump - gap * n);
-    // 1 - beta/(lambda + beta) instead of lambda/(lambda + beta): no 0/0 at infinite slip.
-    const Vec<dim, T> friction = (1.0 - beta / sum) * (force - dot(force, n) * n);
+    const Slip::Ratio<T> kappa = slip.ratio<dim, T, G>(x);
+    const T lambda = (1 / flow.viscosity) * kappa.gliding;
+    const T sum = lambda + beta * kappa.resisting;
+    const Vec<dim, T> along = (kappa.resisting / sum) * (jump - gap * n);
+    const Vec<dim, T> friction = (lambda / sum) * (force - dot(force, n) * n);
     const Vec<dim, T> t = along + friction;
     const Vec<dim, T> traction = t - force + ((normal_penalty / x.trace_size) * phi * gap) * n;
 
@@ -49,21 +87,6 @@ struct FluidSided {
     r.value(Pressure{}) -= gap;
     if (adjoint == 0) return;
     r.gradient(Velocity{}) += (2 * adjoint * flow.viscosity) * sym(outer(beta * t + gap * n, n));
-  }
-
- private:
-  /// Phi: mu + h c_v rho |v| + h^2 c_t rho/(theta dt), Pa s. |v| falls to zero smoothly below a tenth of the
-  /// speed at which convection matters: with its kink Newton's method would limp wherever the fluid rests.
-  template <int dim, class T, class G>
-  T resistance(const Point<dim, G>& x, const Vec<dim, T>& velocity) const {
-    using std::sqrt;
-    constexpr double c_v = 1.0 / 6, c_t = 1.0 / 12;
-    const double h = x.trace_size;
-    T phi = T(flow.viscosity + (x.step > 0 ? h * h * c_t * flow.density / (x.theta * x.step) : 0.0));
-    if (!flow.convection) return phi;
-    const double slow = 0.1 * flow.viscosity / (flow.density * h);
-    const T square = dot(velocity, velocity);
-    return phi + (h * c_v * flow.density) * (square / sqrt(square + slow * slow));
   }
 };
 

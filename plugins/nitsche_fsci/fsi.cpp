@@ -82,7 +82,7 @@ class Fsi final : public Coupling {
       const FluidSided kernel{
           {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0},
           jumps(),
-          parameters_.number("slip_length"),
+          {parameters_.number("slip_length")},
           adjoint,
           penalty.number("normal"),
           penalty.number("tangential")};
@@ -100,7 +100,7 @@ class Fsi final : public Coupling {
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides&) const override {
-    return {{"mismatch", {make_quantity(VelocityMismatch{jumps()}), operands}}};
+    return {{"mismatch", {{make_quantity(VelocityMismatch{jumps()}), operands}}}};
   }
 
  private:

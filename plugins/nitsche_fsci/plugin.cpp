@@ -2,9 +2,11 @@
 #include "seam/plugin/plugin.hpp"
 
 #include "contact.hpp"
+#include "contact_sides.hpp"
 #include "fsi.hpp"
 
 SEAM_PLUGIN(registry) {
   seam::fsci::declare_fsi(registry);
   seam::fsci::declare_contact(registry);
+  seam::fsci::declare_contact_in_fluid(registry);
 }

@@ -80,7 +80,7 @@ std::unique_ptr<Problem> two_bodies(CellType cell, int order) {
   p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
   p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
   PlainSetup setup(sides, 2 * order);
-  problem->add_coupling(MatchingInterface(p).build(setup),
+  problem->add_coupling(MatchingInterface(p).build(setup).front().domain,
                         {{make_term(Transfer{4.0}), {{0, "c"}, {1, "c"}}}});
   problem->finish();
   problem->initialise(0, false);

@@ -49,7 +49,7 @@ struct PointMotion {
   std::vector<double> gap;              ///< [point][move]; empty where the element has no gap
   /// [side]: [point][reference direction][move], through the side's cell, 1/m; empty for a mesh at rest in
   /// space, through which points pass with their position.
-  std::array<std::vector<double>, 2> reference;
+  std::array<std::vector<double>, 5> reference;
 };
 
 /// What terms are integrated over: a cell, a face, or a piece of an interface, with its quadrature points.

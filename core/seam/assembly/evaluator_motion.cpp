@@ -5,7 +5,7 @@
 namespace seam {
 
 namespace {
-constexpr int most_moves = 18;  ///< of two facets in space
+constexpr int most_moves = 36;  ///< of four facets in space
 }
 
 /// Derivatives of the physical gradient G = D J^-1 (D: reference gradient, J: the map's Jacobian):

@@ -145,6 +145,10 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
   const std::vector<double> scales = unknown_scales(problem);
   std::mt19937 generator(20233);
   std::uniform_real_distribution<double> part(-1, 1);
+  // The problem's own assembler is rebuilt with the spaces.
+  const auto follow = [&] {
+    if (spaces_follow && &assembler != &problem.assembler()) assembler.rebuild();
+  };
   TangentError worst;
   for (std::size_t u = 0; u < unknowns.size(); ++u)
     for (int k = 0; k < directions; ++k) {
@@ -153,6 +157,7 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
       if (spaces_follow) {
         problem.restore(here);
         problem.update_spaces(at);
+        follow();
         assembler.assemble(at, true);
       }
       multiply(assembler.matrix(), direction, exact);
@@ -163,6 +168,7 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
         problem.update_rates(at);
         if (spaces_follow && problem.update_spaces(at) == SpaceChange::unknowns)
           return std::vector<double>(direction.size(), std::nan(""));
+        follow();
         assembler.assemble(at, false);
         return assembler.residual();
       };
@@ -189,11 +195,19 @@ std::vector<ConformanceCheck> check_tangents(Problem& problem, const TimePoint& 
   for (FieldEntry& entry : problem.fields()) fields.push_back(entry.field.get());
   for (const auto& [domain, terms] : problem.domains())
     for (const BoundTerm& term : terms) {
-      Assembler alone(fields, problem.communicator());
-      alone.add(domain, {term}, ElementEvaluator::Role::integrate_at_rest);
-      alone.rebuild();
-      checks.push_back(tangent_check(fmt::format("{} on {}", term_name(*term.term), domain->description()),
-                                     tangent_error(problem, alone, at, false)));
+      const auto check = [&](const std::string& how, ElementEvaluator::Role role, bool moves) {
+        Assembler alone(fields, problem.communicator());
+        alone.add(domain, {term}, role);
+        alone.rebuild();
+        checks.push_back(
+            tangent_check(fmt::format("{} on {}{}", term_name(*term.term), domain->description(), how),
+                          tangent_error(problem, alone, at, moves)));
+      };
+      check("", ElementEvaluator::Role::integrate_at_rest, false);
+      if (domain->movers().empty() ||
+          !term.term->signature(fields.front()->mesh().dimension()).follows_motion)
+        continue;
+      check(" as it moves", ElementEvaluator::Role::integrate, true);
     }
   return checks;
 }

@@ -6,19 +6,11 @@
 #include <vector>
 
 #include "seam/assembly/domains.hpp"
-#include "seam/contact/facet_search.hpp"
-#include "seam/contact/gap_motion.hpp"
-#include "seam/cut/lattice.hpp"
+#include "seam/contact/opposite_points.hpp"
 #include "seam/interface/body_surface.hpp"
 #include "seam/interface/cell_constant.hpp"
 
 namespace seam {
-
-/// How far from a point its opposite one may be, m.
-struct ContactWindow {
-  double reach = 0;  ///< ahead
-  double depth = 0;  ///< behind: how far bodies may have overlapped
-};
 
 /// The points of a body's surface that have another surface opposite to them, in its current configuration.
 /// An element is a facet of this rank's cells with those points that share the cell opposite.
@@ -50,23 +42,8 @@ class ContactDomain final : public IntegrationDomain {
     int facet, opposite_group;
     friend bool operator==(const Pairing&, const Pairing&) = default;
   };
-  /// Where the facet opposite begins or ends.
-  struct Break {
-    double share;  ///< of a facet's length
-    int vertex;    ///< of the opposite surface; -1 for the end of the facet itself
-  };
-  struct Stretch {
-    Break from, to;
-    [[nodiscard]] double length() const { return to.share - from.share; }
-  };
-  void add_facet(const Surface& surface, int facet, const FacetSearch& search);
-  [[nodiscard]] std::vector<Stretch> stretches(const std::array<cutting::Vector, 3>& own,
-                                               const cutting::Vector& normal,
-                                               const FacetSearch& search) const;
-  static void stretch_motion(const FacetPair& pair, const Stretch& stretch, const int* vertex, int moves,
-                             std::vector<double>& slide, std::vector<double>& growth);
+  void add_facet(const OppositePoints& opposite, int facet);
   Piece& piece(int facet, int opposite_group);
-  [[nodiscard]] bool is_own_neighbourhood(int facet, int other_facet) const;
 
   std::shared_ptr<const BodySurface> own_, other_;
   MovingSurface obstacle_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "seam/contact/contact_domain.hpp"
+#include "seam/contact/surface_in_fluid.hpp"
 
 namespace seam {
 namespace {
@@ -62,14 +63,14 @@ Schema ContactInterface::schema() {
   return s;
 }
 
-std::shared_ptr<IntegrationDomain> ContactInterface::build(InterfaceSetup& setup) const {
+std::vector<InterfacePart> ContactInterface::build(InterfaceSetup& setup) const {
   const auto own = body_surface(parameters_, "from", "boundaries", setup, 0);
   const bool same =
       setup.sides[0] == setup.sides[1] && parameters_.names("boundaries") == parameters_.names("opposite");
   const auto other = same ? own : body_surface(parameters_, "to", "opposite", setup, 1);
-  return std::make_shared<ContactDomain>(own, other, MovingSurface{},
-                                         window(parameters_, *own, setup.sides[0] == setup.sides[1]),
-                                         setup.degree + extra_degree);
+  return {{"", std::make_shared<ContactDomain>(own, other, MovingSurface{},
+                                               window(parameters_, *own, setup.sides[0] == setup.sides[1]),
+                                               setup.degree + extra_degree)}};
 }
 
 Schema ObstacleInterface::schema() {
@@ -81,11 +82,43 @@ Schema ObstacleInterface::schema() {
   return s;
 }
 
-std::shared_ptr<IntegrationDomain> ObstacleInterface::build(InterfaceSetup& setup) const {
+std::vector<InterfacePart> ObstacleInterface::build(InterfaceSetup& setup) const {
   const auto own = body_surface(parameters_, "from", "boundaries", setup, 0);
   const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
-  return std::make_shared<ContactDomain>(own, nullptr, obstacle_.surface({setup.sides[0]->mesh(), meshes}),
-                                         window(parameters_, *own, false), setup.degree + extra_degree);
+  return {
+      {"", std::make_shared<ContactDomain>(own, nullptr, obstacle_.surface({setup.sides[0]->mesh(), meshes}),
+                                           window(parameters_, *own, false), setup.degree + extra_degree)}};
+}
+
+Schema ContactInFluidInterface::schema() {
+  Schema s(
+      "A deforming body's surface, cut out of a fluid's mesh, with what lies opposite to it on another body "
+      "or on "
+      "itself.");
+  s.reference("field", "The fluid outside the bodies", "field");
+  s.reference("body", "The body whose surface it is", "field");
+  s.reference("to", "The body that it may come to touch; may be the same", "field");
+  s.names("boundaries", "Parts of the boundary of `body`; default all")
+      .naming("boundary:body")
+      .otherwise("[]");
+  s.names("opposite", "Parts of the boundary of `to`; default all").naming("boundary:to").otherwise("[]");
+  declare_window(s);
+  return s;
+}
+
+std::vector<InterfacePart> ContactInFluidInterface::build(InterfaceSetup& setup) const {
+  const auto own = body_surface(parameters_, "body", "boundaries", setup, 1);
+  const bool with_itself = setup.sides[1] == setup.sides[2];
+  const bool same = with_itself && parameters_.names("boundaries") == parameters_.names("opposite");
+  const auto other = same ? own : body_surface(parameters_, "to", "opposite", setup, 2);
+  FieldCut& cut = setup.cut(0);
+  const int number = cut.add_body([own](double) { return own->now(); });
+  const auto surface = std::make_shared<SurfaceInFluid>(*setup.sides[0], cut, number, own, other,
+                                                        window(parameters_, *own, with_itself), setup.degree);
+  const auto part = [&](SurfaceInFluid::Part which) { return std::make_shared<SurfacePart>(surface, which); };
+  return {{"free", part(SurfaceInFluid::free)},
+          {"near", part(SurfaceInFluid::near)},
+          {"closed", part(SurfaceInFluid::closed), false}};
 }
 
 void register_contact(Registry& registry) {
@@ -96,6 +129,9 @@ void register_contact(Registry& registry) {
                           [](const Parameters& p, const Registry& types) {
                             return std::make_unique<ObstacleInterface>(p, types);
                           });
+  registry.add<Interface>(
+      "interface", "contact_in_fluid", ContactInFluidInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<ContactInFluidInterface>(p); });
 }
 
 }  // namespace seam

@@ -22,7 +22,7 @@ class ContactInterface final : public Interface {
   [[nodiscard]] std::vector<std::string> fields() const override {
     return {parameters_.text("from"), parameters_.text("to")};
   }
-  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
   Parameters parameters_;
@@ -35,14 +35,31 @@ class ObstacleInterface final : public Interface {
       : parameters_(parameters), obstacle_(parameters, types) {}
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("from")}; }
-  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
   Parameters parameters_;
   MovingBody obstacle_;
 };
 
-/// Registers "contact" and "obstacle".
+/// A deforming body's surface in a fluid out of which it is cut, and what lies opposite to it there. Side 0
+/// is the fluid, side 1 the body, side 2 the other one. It has three parts, see SurfaceInFluid: `free` with
+/// sides 0 and 1, `near` with all of them and a gap, and `closed`, where side 0 is the nearest wet point's
+/// fluid and side 3 the body there.
+class ContactInFluidInterface final : public Interface {
+ public:
+  explicit ContactInFluidInterface(const Parameters& parameters) : parameters_(parameters) {}
+  static Schema schema();
+  [[nodiscard]] std::vector<std::string> fields() const override {
+    return {parameters_.text("field"), parameters_.text("body"), parameters_.text("to")};
+  }
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
+
+ private:
+  Parameters parameters_;
+};
+
+/// Registers "contact", "obstacle" and "contact_in_fluid".
 void register_contact(Registry& registry);
 
 }  // namespace seam

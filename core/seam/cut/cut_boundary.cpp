@@ -8,11 +8,12 @@
 namespace seam {
 
 CutBoundary::CutBoundary(Field& field, const FieldCut& cut, int body, int degree)
-    : field_(&field), cut_(&cut), body_(body), degree_(degree) {
-  // Tensor cells count the degree per direction; along an oblique facet the directions add up. In space two
-  // of them: that is exact for all products of one function with a linear one, at 6 points a piece, not 16.
-  const CellType type = field.mesh().type();
-  if (type == CellType::quadrilateral || type == CellType::hexahedron) degree_ *= 2;
+    : field_(&field), cut_(&cut), body_(body), degree_(oblique_degree(field.mesh().type(), degree)) {}
+
+// In space two directions count: that is exact for all products of one function with a linear one, at 6
+// points a piece, not 16.
+int oblique_degree(CellType type, int degree) {
+  return type == CellType::quadrilateral || type == CellType::hexahedron ? 2 * degree : degree;
 }
 
 void CutBoundary::update(const Field& field) {

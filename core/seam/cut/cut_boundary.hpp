@@ -10,6 +10,10 @@
 
 namespace seam {
 
+/// Degree to integrate on facets that lie askew in a cell: tensor cells count the degree per direction, and
+/// along an oblique facet the directions add up.
+int oblique_degree(CellType type, int degree);
+
 /// The part of a body's surface that bounds a field whose mesh it cuts, piece by piece. Side 0 is that field.
 class CutBoundary : public IntegrationDomain {
  public:

@@ -16,12 +16,12 @@ std::optional<Surface> CutInterface::body(const BodySetting& setting, double tim
   return body_.surface(setting)(time);
 }
 
-std::shared_ptr<IntegrationDomain> CutInterface::build(InterfaceSetup& setup) const {
+std::vector<InterfacePart> CutInterface::build(InterfaceSetup& setup) const {
   Field& field = *setup.sides[0];
   const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
   FieldCut& cut = setup.cut(0);
-  return std::make_shared<CutBoundary>(field, cut, cut.add_body(body_.surface({field.mesh(), meshes})),
-                                       setup.degree);
+  return {{"", std::make_shared<CutBoundary>(field, cut, cut.add_body(body_.surface({field.mesh(), meshes})),
+                                             setup.degree)}};
 }
 
 }  // namespace seam

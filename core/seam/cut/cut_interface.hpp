@@ -19,7 +19,7 @@ class CutInterface final : public Interface {
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("field")}; }
   [[nodiscard]] std::optional<Surface> body(const BodySetting& setting, double time) const override;
-  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
   Parameters parameters_;

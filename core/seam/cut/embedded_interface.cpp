@@ -92,7 +92,7 @@ Schema EmbeddedInterface::schema() {
   return s;
 }
 
-std::shared_ptr<IntegrationDomain> EmbeddedInterface::build(InterfaceSetup& setup) const {
+std::vector<InterfacePart> EmbeddedInterface::build(InterfaceSetup& setup) const {
   const std::string displacement = setup.displacement(1);
   if (displacement.empty())
     throw Error(parameters_.where("body"),
@@ -102,7 +102,7 @@ std::shared_ptr<IntegrationDomain> EmbeddedInterface::build(InterfaceSetup& setu
       std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"), displacement);
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([surface](double) { return surface->now(); });
-  return std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, setup.degree, surface);
+  return {{"", std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, setup.degree, surface)}};
 }
 
 }  // namespace seam

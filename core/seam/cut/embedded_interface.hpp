@@ -21,7 +21,7 @@ class EmbeddedInterface final : public Interface {
   [[nodiscard]] std::vector<std::string> fields() const override {
     return {parameters_.text("field"), parameters_.text("body")};
   }
-  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
   Parameters parameters_;

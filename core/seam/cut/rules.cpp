@@ -21,7 +21,8 @@ void append(int dimension, const Vector& x, std::vector<double>& values) {
 }
 
 void clear(InterfaceRule& rule) {
-  for (auto* values : {&rule.reference, &rule.weight, &rule.position, &rule.normal, &rule.facet_reference})
+  for (auto* values :
+       {&rule.reference, &rule.weight, &rule.position, &rule.normal, &rule.facet_reference, &rule.span})
     values->clear();
   rule.body.clear();
   rule.facet.clear();
@@ -143,6 +144,9 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
         const Vector position = x[0] + s[0] * (a - x[0]) + second * (b - x[0]);
         if (moving) moving->append({0, k, dim == 3 ? k + 1 : k}, {1 - s[0] - second, s[0], second}, *motion);
         add(piece, position, area * base.weights[q] * (dim == 3 ? 2 : 1));
+        if (dim == 2)
+          for (const Vector& end : {x[0], x[1]})
+            rule.span.push_back(on_facet(geometry_->bodies[piece.body], piece.facet, end)[0]);
       }
     }
   }

@@ -31,6 +31,14 @@ class InterfaceSetup {
   [[nodiscard]] virtual std::shared_ptr<const MeshData> mesh(const std::string& name) = 0;
 };
 
+/// Points of an interface that couplings treat alike.
+struct InterfacePart {
+  std::string name;  ///< "" where an interface has one part only
+  std::shared_ptr<IntegrationDomain> domain;
+  /// Whether side 0's field is met at the points themselves; else its trace is one from elsewhere.
+  bool bounds_field = true;
+};
+
 /// Where two or more fields meet. A type of kind "interface": built from the scene, it yields the points on
 /// which coupling terms are integrated, each with a trace (field, cell, reference coordinates) on every side.
 class Interface {
@@ -45,8 +53,9 @@ class Interface {
     (void)setting, (void)time;
     return std::nullopt;
   }
-  /// Finds the pieces of the interface. Collective.
-  [[nodiscard]] virtual std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const = 0;
+  /// The interface's points, in one part or several. Points that move are asked to follow part by part, in
+  /// this order. Collective.
+  [[nodiscard]] virtual std::vector<InterfacePart> build(InterfaceSetup& setup) const = 0;
 };
 
 /// What a coupling may know of an interface: the names of its fields and of their unknowns, nothing of their
@@ -68,6 +77,8 @@ class Coupling {
     std::vector<Operand> operands;
     /// What the term reads as Point::constant, two at most: numbers of the cells on a side.
     std::vector<SideConstant> constants = {};
+    /// The part of the interface on which it is integrated, where that has several.
+    std::string part = {};
   };
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
@@ -75,7 +86,8 @@ class Coupling {
   /// `interface.name`.
   struct Measure {
     std::string name;
-    SideTerm quantity;
+    /// One for each part of the interface that counts; what they make up together is recorded.
+    std::vector<SideTerm> quantities;
     /// The L2 norm over the interface, as of what vanishes where the conditions hold exactly; or, of a
     /// scalar, the integral or the extreme value at an integration point (infinite where there is none).
     MeasureOf of = MeasureOf::norm;

@@ -151,7 +151,7 @@ Schema MatchingInterface::schema() {
   return s;
 }
 
-std::shared_ptr<IntegrationDomain> MatchingInterface::build(InterfaceSetup& setup) const {
+std::vector<InterfacePart> MatchingInterface::build(InterfaceSetup& setup) const {
   const std::vector<Field*>& sides = setup.sides;
   const MeshData& first = sides[0]->mesh().whole();
   const MeshData& second = sides[1]->mesh().whole();
@@ -176,7 +176,8 @@ std::shared_ptr<IntegrationDomain> MatchingInterface::build(InterfaceSetup& setu
     faces.push_back(face);
     partner_cells.push_back(partner->cell);
   }
-  return std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells), setup.degree);
+  return {{"", std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells),
+                                                setup.degree)}};
 }
 
 void register_interfaces(Registry& registry) {

@@ -13,7 +13,7 @@ class MatchingInterface final : public Interface {
   explicit MatchingInterface(const Parameters& parameters);
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return fields_; }
-  [[nodiscard]] std::shared_ptr<IntegrationDomain> build(InterfaceSetup& setup) const override;
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
   std::vector<std::string> fields_;

@@ -171,24 +171,32 @@ std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector
 
 std::vector<double> interface_integral(const Problem& problem, const std::string& interface,
                                        const NamedQuantity& quantity, const TimePoint& at) {
-  return integrate(*problem.interfaces().at(interface), quantity, at, problem.communicator());
+  std::vector<double> sum(quantity.components, 0.0);
+  for (const InterfacePart& part : problem.interfaces().at(interface)) {
+    if (!part.bounds_field) continue;
+    const auto share = integrate(*part.domain, quantity, at, problem.communicator());
+    for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += share[c];
+  }
+  return sum;
 }
 
 double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
                          const Communicator& communicator) {
-  ElementEvaluator evaluator(*measure.domain, {measure.quantity});
-  const int dim = measure.domain->fields().front()->mesh().dimension();
-  const auto components = static_cast<std::size_t>(measure.quantity.term->signature(dim).values);
   double sum = 0, square = 0;
   double least = std::numeric_limits<double>::infinity(), greatest = -least;
-  for (int e = 0; e < measure.domain->size(); ++e) {
-    const auto& values = evaluator.compute_values(e, at);
-    for (std::size_t i = 0; i < evaluator.element().points * components; ++i) {
-      const double weight = evaluator.element().weight[i / components];
-      sum += weight * values[i];
-      square += weight * values[i] * values[i];
-      least = std::min(least, values[i]);
-      greatest = std::max(greatest, values[i]);
+  for (const auto& [domain, quantity] : measure.shares) {
+    ElementEvaluator evaluator(*domain, {quantity});
+    const int dim = domain->fields().front()->mesh().dimension();
+    const auto components = static_cast<std::size_t>(quantity.term->signature(dim).values);
+    for (int e = 0; e < domain->size(); ++e) {
+      const auto& values = evaluator.compute_values(e, at);
+      for (std::size_t i = 0; i < evaluator.element().points * components; ++i) {
+        const double weight = evaluator.element().weight[i / components];
+        sum += weight * values[i];
+        square += weight * values[i] * values[i];
+        least = std::min(least, values[i]);
+        greatest = std::max(greatest, values[i]);
+      }
     }
   }
   switch (measure.of) {
@@ -206,11 +214,11 @@ double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
 
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,
                                     const std::string& unknown, const TimePoint& at) {
-  const auto& domain = problem.interfaces().at(interface);
-  const Field::Place place = domain->fields().front()->place(unknown);
+  const std::vector<InterfacePart>& parts = problem.interfaces().at(interface);
+  const Field::Place place = parts.front().domain->fields().front()->place(unknown);
   std::vector<double> sum(place.components, 0.0);
-  for (const auto& [other, terms] : problem.domains()) {
-    if (other != domain) continue;
+  for (const auto& [domain, terms] : problem.domains()) {
+    if (std::ranges::none_of(parts, [&](const InterfacePart& p) { return p.domain == domain; })) continue;
     ElementEvaluator evaluator(*domain, terms);
     for (const ElementEvaluator::Part& part : evaluator.parts()) {
       if (part.side != 0 || part.block != place.block) continue;
@@ -371,17 +379,21 @@ ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
   return norms;
 }
 
-ErrorNorms interface_error_norms(const IntegrationDomain& interface, const FieldEntry& entry,
+ErrorNorms interface_error_norms(const std::vector<InterfacePart>& interface, const FieldEntry& entry,
                                  const std::string& unknown, const std::vector<Expression>& exact,
                                  const std::vector<Expression>& gradient, double time) {
-  const std::vector<Field*> fields = interface.fields();
-  const auto side = std::find(fields.begin(), fields.end(), entry.field.get());
-  if (side == fields.end())
-    throw Error(fmt::format("field '{}' lies on no side of {}", entry.name, interface.description()));
-  const Difference difference(interface, static_cast<int>(side - fields.begin()), unknown, time);
   ErrorNorms norms;
-  norms.l2 = difference.norm(Shape::value, exact, false);
-  if (!gradient.empty()) norms.h1 = difference.norm(Shape::gradient, gradient, true);
+  if (!gradient.empty()) norms.h1 = 0;
+  for (const InterfacePart& part : interface) {
+    if (!part.bounds_field) continue;
+    const std::vector<Field*> fields = part.domain->fields();
+    const auto side = std::find(fields.begin(), fields.end(), entry.field.get());
+    if (side == fields.end())
+      throw Error(fmt::format("field '{}' lies on no side of {}", entry.name, part.domain->description()));
+    const Difference difference(*part.domain, static_cast<int>(side - fields.begin()), unknown, time);
+    norms.l2 = std::hypot(norms.l2, difference.norm(Shape::value, exact, false));
+    if (norms.h1) norms.h1 = std::hypot(*norms.h1, difference.norm(Shape::gradient, gradient, true));
+  }
   return norms;
 }
 

@@ -74,7 +74,7 @@ ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
                        double time);
 /// The same over an interface that one of whose sides is the field. Functions are evaluated at points of the
 /// field's mesh; the normal is the interface's. Collective.
-ErrorNorms interface_error_norms(const IntegrationDomain& interface, const FieldEntry& entry,
+ErrorNorms interface_error_norms(const std::vector<InterfacePart>& interface, const FieldEntry& entry,
                                  const std::string& unknown, const std::vector<Expression>& exact,
                                  const std::vector<Expression>& gradient, double time);
 

@@ -16,7 +16,7 @@ std::string field_of(const Parameters& p, const Problem& problem) {
   if (p.has("field") == p.has("interface"))
     throw Error(p.where(), "a probe needs either `field` or `interface`");
   if (p.has("field")) return p.text("field");
-  return problem.interfaces().at(p.text("interface"))->fields().front()->name();
+  return problem.interfaces().at(p.text("interface")).front().domain->fields().front()->name();
 }
 
 }  // namespace

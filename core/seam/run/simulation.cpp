@@ -110,33 +110,45 @@ class Simulation::Setup final : public InterfaceSetup {
 
 void Simulation::build_couplings(const Registry& registry) {
   struct Built {
-    std::shared_ptr<IntegrationDomain> domain;
+    std::vector<InterfacePart> parts;
     std::vector<Field*> sides;
+    /// @throws Error when there is no such part
+    [[nodiscard]] const std::shared_ptr<IntegrationDomain>& part(const std::string& name) const {
+      for (const InterfacePart& part : parts)
+        if (part.name == name) return part.domain;
+      std::vector<std::string> names;
+      for (const InterfacePart& part : parts) names.push_back("'" + part.name + "'");
+      throw Error(fmt::format("the coupling acts on the part '{}' of an interface whose parts are: {}", name,
+                              fmt::join(names, ", ")));
+    }
   };
   std::map<std::string, Built> interfaces;
   for (const auto& [name, interface] : interfaces_) {
     Setup setup(*this, interface->fields());
     interfaces[name] = {interface->build(setup), setup.sides};
-    problem_.name_interface(name, interfaces[name].domain);
+    problem_.name_interface(name, interfaces[name].parts);
   }
   for (const Parameters& parameters : scene_.root.list("coupling")) {
     const Built& built = interfaces.at(parameters.text("on"));
     const auto coupling = registry.create<Coupling>("coupling", parameters);
-    std::vector<BoundTerm> terms;
     try {
       const CouplingSides sides{{built.sides.begin(), built.sides.end()}};
       const auto bind = [&](const Coupling::SideTerm& term) {
         BoundTerm bound{term.term, term.operands};
         for (std::size_t k = 0; k < term.constants.size(); ++k)
           bound.constants.at(k) =
-              built.domain->add_constant(term.constants[k].side, term.constants[k].constant);
+              built.part(term.part)->add_constant(term.constants[k].side, term.constants[k].constant);
         return bound;
       };
-      for (const auto& term : coupling->terms(sides)) terms.push_back(bind(term));
-      for (const auto& measure : coupling->measures(sides))
-        problem_.add_measure(
-            {parameters.text("on") + "." + measure.name, built.domain, bind(measure.quantity), measure.of});
-      problem_.add_coupling(built.domain, std::move(terms));
+      std::map<std::string, std::vector<BoundTerm>> terms;  // by part
+      for (const auto& term : coupling->terms(sides)) terms[term.part].push_back(bind(term));
+      for (const auto& measure : coupling->measures(sides)) {
+        InterfaceMeasure recorded{parameters.text("on") + "." + measure.name, {}, measure.of};
+        for (const auto& quantity : measure.quantities)
+          recorded.shares.push_back({built.part(quantity.part), bind(quantity)});
+        problem_.add_measure(std::move(recorded));
+      }
+      for (auto& [part, of_part] : terms) problem_.add_coupling(built.part(part), std::move(of_part));
     } catch (const Error& error) {
       throw Error(parameters.where(), error.what());
     }
@@ -323,10 +335,10 @@ void Simulation::finish_errors() {
     const FieldEntry& entry = problem_.field(p.text("field"));
     const auto& exact = p.vector_expression("exact");
     const auto gradient = p.has("gradient") ? p.vector_expression("gradient") : std::vector<Expression>{};
-    const ErrorNorms norms =
-        p.has("interface") ? interface_error_norms(*problem_.interfaces().at(p.text("interface")), entry,
-                                                   p.text("unknown"), exact, gradient, state_.time)
-                           : error_norms(entry, p.text("unknown"), exact, gradient, state_.time);
+    const ErrorNorms norms = p.has("interface")
+                                 ? interface_error_norms(problem_.interfaces().at(p.text("interface")), entry,
+                                                         p.text("unknown"), exact, gradient, state_.time)
+                                 : error_norms(entry, p.text("unknown"), exact, gradient, state_.time);
     state_.results.once[name + ".l2"] = norms.l2;
     if (norms.h1) state_.results.once[name + ".h1"] = *norms.h1;
   }

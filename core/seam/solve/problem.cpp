@@ -76,7 +76,8 @@ void Problem::finish(double time, bool shape_derivatives) {
   }
   carry_rates();
   update_cuts(time_point(time, 0, 1));
-  for (auto& [name, domain] : interfaces_) domain->follow(time);
+  for (auto& [name, parts] : interfaces_)
+    for (InterfacePart& part : parts) part.domain->follow(time);
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   using Role = ElementEvaluator::Role;
   for (const auto& [domain, terms] : domains_)
@@ -264,8 +265,9 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
 
 SpaceChange Problem::update_spaces(const TimePoint& at) {
   SpaceChange change = update_cuts(at);
-  for (auto& [name, domain] : interfaces_)
-    if (communicator_.any(domain->follow(at.time))) change = std::max(change, SpaceChange::geometry);
+  for (auto& [name, parts] : interfaces_)
+    for (InterfacePart& part : parts)
+      if (communicator_.any(part.domain->follow(at.time))) change = std::max(change, SpaceChange::geometry);
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;

@@ -69,8 +69,11 @@ struct FieldEntry {
 /// A number that a coupling wants recorded.
 struct InterfaceMeasure {
   std::string name;  ///< of the interface and of the quantity: "gamma.mismatch"
-  std::shared_ptr<const IntegrationDomain> domain;
-  BoundTerm quantity;
+  struct Share {
+    std::shared_ptr<const IntegrationDomain> domain;
+    BoundTerm quantity;
+  };
+  std::vector<Share> shares;  ///< one for each part of the interface that counts
   MeasureOf of;
 };
 
@@ -95,10 +98,10 @@ class Problem {
   void add_measure(InterfaceMeasure measure) { measures_.push_back(std::move(measure)); }
   [[nodiscard]] const std::vector<InterfaceMeasure>& measures() const { return measures_; }
   /// Lets the interface be found by its name in the scene.
-  void name_interface(const std::string& name, std::shared_ptr<IntegrationDomain> interface) {
-    interfaces_[name] = std::move(interface);
+  void name_interface(const std::string& name, std::vector<InterfacePart> parts) {
+    interfaces_[name] = std::move(parts);
   }
-  [[nodiscard]] const std::map<std::string, std::shared_ptr<IntegrationDomain>>& interfaces() const {
+  [[nodiscard]] const std::map<std::string, std::vector<InterfacePart>>& interfaces() const {
     return interfaces_;
   }
   /// Called before each Newton iteration; returns true when it changed active unknowns, domains or prescribed
@@ -178,7 +181,7 @@ class Problem {
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
-  std::map<std::string, std::shared_ptr<IntegrationDomain>> interfaces_;
+  std::map<std::string, std::vector<InterfacePart>> interfaces_;
   std::vector<InterfaceMeasure> measures_;
   std::vector<SpaceUpdate> space_updates_;
   std::unique_ptr<Assembler> assembler_;

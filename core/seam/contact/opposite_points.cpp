@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/contact/opposite_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seam {
+
+using namespace cutting;
+
+namespace {
+
+std::array<Vector, 3> vertices(const Surface& surface, int facet) {
+  const int dim = surface.dimension;
+  std::array<Vector, 3> result{};
+  for (int k = 0; k < dim; ++k) {
+    const int p = surface.facets[static_cast<std::size_t>(facet) * dim + k];
+    std::copy_n(&surface.points[static_cast<std::size_t>(p) * dim], dim, result[k].begin());
+  }
+  return result;
+}
+
+}  // namespace
+
+OppositePoints::OppositePoints(const BodySurface& own, const BodySurface* other, Surface opposite,
+                               ContactWindow window)
+    : own_(&own),
+      is_itself_(other == &own),
+      surface_(own.now()),
+      search_(std::move(opposite)),
+      window_(window) {}
+
+std::array<Vector, 3> OppositePoints::own_vertices(int facet) const { return vertices(surface_, facet); }
+
+double OppositePoints::area(int facet) const {
+  const Vector n = facet_normal(surface_.dimension, own_vertices(facet));
+  return std::sqrt(dot(n, n));
+}
+
+Vector OppositePoints::normal(int facet) const {
+  return 1 / area(facet) * facet_normal(surface_.dimension, own_vertices(facet));
+}
+
+/// In contact with itself a thin part of a body must not take its own back for a surface that it has passed.
+bool OppositePoints::is_own_neighbourhood(int facet, int other_facet) const {
+  if (own_->group(facet) == own_->group(other_facet)) return true;
+  const std::vector<int>& first = own_->cell(own_->group(facet)).nodes[own_->place().block];
+  const std::vector<int>& second = own_->cell(own_->group(other_facet)).nodes[own_->place().block];
+  return std::ranges::find_first_of(first, second) != first.end();
+}
+
+std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double* on_facet) const {
+  const int dim = surface_.dimension;
+  Hit hit{facet, -1, {}};
+  FacetPair& pair = hit.pair;
+  pair.dimension = dim;
+  pair.own = own_vertices(facet);
+  std::copy_n(on_facet, dim - 1, pair.on_own.begin());
+  Vector x = pair.own[0];
+  for (int k = 1; k < dim; ++k) x = x + pair.on_own[k - 1] * (pair.own[k] - pair.own[0]);
+  const Vector direction = normal(facet);
+  const auto found = search_.find(x.data(), direction.data(), window_.depth, window_.reach,
+                                  [&](int other_facet, double gap) {
+                                    return is_itself_ && gap <= 0 && is_own_neighbourhood(facet, other_facet);
+                                  });
+  if (!found) return std::nullopt;
+  hit.facet = found->facet;
+  pair.opposite = vertices(search_.surface(), found->facet);
+  pair.on_opposite = found->on_facet;
+  pair.gap = found->gap;
+  return hit;
+}
+
+std::vector<OppositePoints::Stretch> OppositePoints::stretches(int facet, double from, double to) const {
+  if (surface_.dimension != 2) return {{{0}, {1}}};
+  const std::array<Vector, 3> own = own_vertices(facet);
+  const Vector along = own[1] - own[0], direction = normal(facet);
+  Vector low = own[0], high = own[0];
+  for (const Vector& end : {own[0], own[1]})
+    for (const double way : {-window_.depth, window_.reach})
+      for (int d = 0; d < 2; ++d) {
+        low[d] = std::min(low[d], end[d] + way * direction[d]);
+        high[d] = std::max(high[d], end[d] + way * direction[d]);
+      }
+  std::vector<int> near;
+  search_.find_near(low.data(), high.data(), direction.data(), near);
+  std::vector<Break> breaks{end_at(facet, from), end_at(facet, to)};
+  for (const int other : near)
+    for (int k = 0; k < 2; ++k) {
+      const int vertex = search_.surface().facets[static_cast<std::size_t>(other) * 2 + k];
+      const Vector r = vertices(search_.surface(), other)[k] - own[0];
+      const double share = dot(r, along) / dot(along, along), height = dot(r, direction);
+      constexpr double least = 1e-9;
+      if (share > from + least && share < to - least && height >= -window_.depth && height <= window_.reach)
+        breaks.push_back({share, vertex});
+    }
+  std::ranges::sort(breaks, [](const Break& a, const Break& b) {
+    return a.share != b.share ? a.share < b.share : a.vertex < b.vertex;
+  });
+  std::vector<Stretch> result;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k)
+    if (breaks[k + 1].share > breaks[k].share) result.push_back({breaks[k], breaks[k + 1]});
+  return result;
+}
+
+OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
+  constexpr double hair = 1e-6;  // of the facet's length: the cut's lattice is much finer
+  if (share < hair || share > 1 - hair) return {share};
+  const std::array<Vector, 3> own = own_vertices(facet);
+  const Vector along = own[1] - own[0], x = own[0] + share * along, direction = normal(facet);
+  const double reach = hair * std::sqrt(dot(along, along));
+  const Vector margin{reach, reach, 0}, low = x - margin, high = x + margin;
+  std::vector<int> near;
+  search_.find_near(low.data(), high.data(), direction.data(), near);
+  for (const int other : near) {
+    const std::array<Vector, 3> v = vertices(search_.surface(), other);
+    const Vector edge = v[1] - v[0], way = x - v[0];
+    const double length = std::sqrt(dot(edge, edge)), there = dot(way, edge) / (length * length);
+    const double height = (way[0] * edge[1] - way[1] * edge[0]) / length;
+    const bool is_itself = is_itself_ && is_own_neighbourhood(facet, other);
+    if (!is_itself && std::abs(height) < reach && there > -hair && there < 1 + hair)
+      return {share, -1, other};
+  }
+  return {share};
+}
+
+void OppositePoints::stretch_motion(const Hit& hit, const Stretch& stretch, int moves,
+                                    std::vector<double>& slide, std::vector<double>& growth) const {
+  const FacetPair& pair = hit.pair;
+  const int* vertex = &search_.surface().facets[static_cast<std::size_t>(hit.facet) * 2];
+  const Vector along = pair.own[1] - pair.own[0];
+  const double square = dot(along, along);
+  // Where the two lines cross, (x - c).across = 0 for a vertex c of the facet opposite.
+  const Vector edge = pair.opposite[1] - pair.opposite[0], across{edge[1], -edge[0], 0};
+  const auto crossing = [&](const Break& end, int m) {
+    const int facet = m / 4, k = m % 4 / 2, c = m % 2;
+    const double there = dot(pair.own[0] + end.share * along - pair.opposite[0], edge) / dot(edge, edge);
+    const double place = facet == 0 ? end.share : there;
+    return (facet == 0 ? -1 : 1) * (k == 1 ? place : 1 - place) * across[c] / dot(along, across);
+  };
+  // share = (v - a).along/square
+  const auto change = [&](const Break& end, int m) {
+    if (end.facet >= 0) return end.facet == hit.facet ? crossing(end, m) : 0.0;
+    if (end.vertex < 0 || (end.vertex != vertex[0] && end.vertex != vertex[1])) return 0.0;
+    const int facet = m / 4, k = m % 4 / 2, c = m % 2;
+    if (facet == 1) return end.vertex == vertex[k] ? along[c] / square : 0.0;
+    const Vector v = pair.opposite[end.vertex == vertex[0] ? 0 : 1] - pair.own[0];
+    const double turn = (v[c] - 2 * end.share * along[c]) / square;
+    return k == 1 ? turn : -turn - along[c] / square;
+  };
+  const double place = (pair.on_own[0] - stretch.from.share) / stretch.length();
+  for (int m = 0; m < moves; ++m) {
+    const double from = change(stretch.from, m), to = change(stretch.to, m);
+    slide.push_back((1 - place) * from + place * to);
+    growth.push_back((to - from) / stretch.length());
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "seam/contact/facet_search.hpp"
+#include "seam/contact/gap_motion.hpp"
+#include "seam/cut/lattice.hpp"
+#include "seam/interface/body_surface.hpp"
+
+namespace seam {
+
+/// How far from a point its opposite one may be, m.
+struct ContactWindow {
+  double reach = 0;  ///< ahead
+  double depth = 0;  ///< behind: how far bodies may have overlapped
+};
+
+/// Looks from a body's surface along its normals at another surface, or at itself, both as they are now.
+class OppositePoints {
+ public:
+  /// @param other null where the opposite surface is given
+  /// @param opposite the other surface as it is now
+  OppositePoints(const BodySurface& own, const BodySurface* other, Surface opposite, ContactWindow window);
+
+  struct Hit {
+    int own_facet, facet;  ///< of the two surfaces
+    FacetPair pair;
+  };
+  /// @param on_facet the facet's own coordinates, [dimension - 1]
+  [[nodiscard]] std::optional<Hit> find(int facet, const double* on_facet) const;
+  /// Outward, of length 1.
+  [[nodiscard]] cutting::Vector normal(int facet) const;
+  /// m^(d-1), twice that in space.
+  [[nodiscard]] double area(int facet) const;
+
+  /// Where a part of a facet begins or ends, in the plane.
+  struct Break {
+    double share;     ///< of the facet's length
+    int vertex = -1;  ///< of the opposite surface that the end follows
+    int facet = -1;   ///< of the opposite surface that crosses this one there; else it keeps its place
+  };
+  struct Stretch {
+    Break from, to;
+    [[nodiscard]] double length() const { return to.share - from.share; }
+  };
+  /// In the plane: the parts of a facet, or of one of its parts, between which the facet opposite changes, so
+  /// that integrals are exact. In space: all of it.
+  [[nodiscard]] std::vector<Stretch> stretches(int facet, double from = 0, double to = 1) const;
+  /// In the plane: an end of a wet or a closed part of a facet, with the facet opposite that makes it.
+  [[nodiscard]] Break end_at(int facet, double share) const;
+  /// How a point slides that keeps its part of a stretch, [move], and how the stretch's share of the facet
+  /// grows, where its ends follow the facet opposite.
+  void stretch_motion(const Hit& hit, const Stretch& stretch, int moves, std::vector<double>& slide,
+                      std::vector<double>& growth) const;
+
+ private:
+  [[nodiscard]] std::array<cutting::Vector, 3> own_vertices(int facet) const;
+  [[nodiscard]] bool is_own_neighbourhood(int facet, int other_facet) const;
+  const BodySurface* own_;
+  bool is_itself_;
+  Surface surface_;  ///< own
+  FacetSearch search_;
+  ContactWindow window_;
+};
+
+}  // namespace seam

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/contact/surface_in_fluid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <ranges>
+
+#include "seam/base/diagnostics.hpp"
+#include "seam/cut/cut_boundary.hpp"
+
+namespace seam {
+
+using namespace cutting;
+
+namespace {
+
+constexpr double hair = 1e-9;  ///< share of a facet that is rounding
+
+/// Appends rows of `width` numbers, widened by zeros.
+void append_rows(const double* from, std::size_t rows, std::size_t width, std::size_t wide,
+                 std::vector<double>& to) {
+  for (std::size_t r = 0; r < rows; ++r) {
+    to.insert(to.end(), from + r * width, from + (r + 1) * width);
+    to.resize(to.size() + wide - width, 0.0);
+  }
+}
+
+void append(const std::vector<double>& from, std::vector<double>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+/// What a facet's wet stretches leave over.
+std::vector<std::pair<double, double>> rest(std::vector<std::pair<double, double>> wet) {
+  std::ranges::sort(wet);
+  std::vector<std::pair<double, double>> result;
+  double reached = 0;
+  wet.emplace_back(1, 1);
+  for (const auto& [from, to] : wet) {
+    if (from - reached > hair) result.emplace_back(reached, from);
+    reached = std::max(reached, to);
+  }
+  return result;
+}
+
+}  // namespace
+
+SurfaceInFluid::SurfaceInFluid(Field& fluid, const FieldCut& cut, int number,
+                               std::shared_ptr<const BodySurface> own,
+                               std::shared_ptr<const BodySurface> other, ContactWindow window, int degree)
+    : fluid_(&fluid),
+      cut_(&cut),
+      number_(number),
+      degree_(oblique_degree(fluid.mesh().type(), degree)),
+      own_(std::move(own)),
+      other_(std::move(other)),
+      window_(window),
+      rule_(&quadrature(fluid.mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree_)) {}
+
+bool SurfaceInFluid::follow() {
+  const std::vector<Key> before = keys();
+  for (auto& of_part : elements_) of_part.clear();
+  wet_.clear();
+  const OppositePoints opposite(*own_, other_.get(), other_->now(), window_);
+  if (fluid_->cut())
+    for (const int cell : fluid_->cut()->cut_cells()) {
+      if (cell >= fluid_->mesh().owned_cells() || !fluid_->active_cells()[cell]) continue;
+      for (int part = 0; part < fluid_->parts(cell); ++part) add_wet(cell, part, opposite);
+    }
+  add_closed(opposite);
+  return before != keys();
+}
+
+std::vector<SurfaceInFluid::Key> SurfaceInFluid::keys() const {
+  std::vector<Key> result;
+  for (const auto& of_part : elements_)
+    for (const Element& e : of_part) result.push_back(key_of(e));
+  return result;
+}
+
+SurfaceInFluid::Key SurfaceInFluid::key_of(const Element& e) {
+  return {e.fluid.cell, e.fluid.part, e.group, e.other_group, e.own_edge_group, e.other_edge_group};
+}
+
+void SurfaceInFluid::add_wet(int cell, int part, const OppositePoints& opposite) {
+  const auto dim = static_cast<std::size_t>(dimension()), moves = dim * dim;
+  InterfaceRule rule;
+  InterfaceMotion motion;
+  fluid_->cut()->interface_rule(cell, degree_, rule, &motion, part);
+  std::map<std::pair<int, int>, std::pair<Part, int>> place;  // of an element, by the groups of its points
+  for (int q = 0; q < rule.count(); ++q) {
+    if (rule.body[q] != number_) continue;
+    const auto at = static_cast<std::size_t>(q);
+    const int facet = rule.facet[q];
+    if (dim == 3) {
+      wet_.push_back({facet, 0, 0, rule.weight[q]});
+    } else {
+      const auto [from, to] = std::minmax(rule.span[2 * at], rule.span[2 * at + 1]);
+      if (wet_.empty() || wet_.back().facet != facet || wet_.back().from != from)
+        wet_.push_back({facet, from, to, 0});
+    }
+    const auto hit = opposite.find(facet, &rule.facet_reference[at * (dim - 1)]);
+    const int group = own_->group(facet), other_group = hit ? other_->group(hit->facet) : -1;
+    const Part which = hit ? near : free;
+    const auto [found, is_new] = place.try_emplace({group, other_group}, which, elements_[which].size());
+    if (is_new) {
+      Element& added = elements_[which].emplace_back();
+      added.fluid.cell = cell;
+      added.fluid.part = part;
+      added.group = group;
+      added.other_group = other_group;
+      added.trace_size = cut_->trace_size(cell);
+    }
+    Element& element = elements_[which][found->second.second];
+    const std::size_t wide = hit ? 2 * moves : moves;
+    element.fluid.weight.push_back(rule.weight[q]);
+    for (std::size_t d = 0; d < dim; ++d) {
+      element.fluid.reference.push_back(rule.reference[at * dim + d]);
+      element.normal.push_back(rule.normal[at * dim + d]);
+    }
+    own_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], element.own.reference);
+    element.own.weight.push_back(rule.weight[q]);
+    if (hit) element.other.weight.push_back(rule.weight[q]);
+    PointMotion& moving = element.motion;
+    const int* places = own_->places(facet);
+    moving.node.insert(moving.node.end(), places, places + dim);
+    append_rows(&motion.position[at * dim * moves], dim, moves, wide, moving.position);
+    append_rows(&motion.normal[at * dim * moves], dim, moves, wide, moving.normal);
+    append_rows(&motion.relative_weight[at * moves], 1, moves, wide, moving.relative_weight);
+    std::vector<double> slide;
+    append_rows(&motion.facet_reference[at * (dim - 1) * moves], dim - 1, moves, wide, slide);
+    if (hit && dim == 2) add_edge_motion(*hit, &rule.span[2 * at], opposite, slide, moving);
+    own_->motion_to_cell(facet, slide.data(), static_cast<int>(wide), moving.reference[1]);
+    if (hit) add_partner(element, *hit, pair_motion(hit->pair, static_cast<int>(wide), slide));
+  }
+}
+
+/// In the plane: the cut lets a piece that ends on another body keep its share of the facet; add how the end
+/// follows that body. @param span of the last point added
+void SurfaceInFluid::add_edge_motion(const OppositePoints::Hit& hit, const double* span,
+                                     const OppositePoints& opposite, std::vector<double>& slide,
+                                     PointMotion& motion) {
+  const int facet = hit.own_facet;
+  const auto ends_there = [&](double share) {
+    const OppositePoints::Break end = opposite.end_at(facet, share);
+    return end.facet == hit.facet ? end : OppositePoints::Break{share};
+  };
+  const OppositePoints::Stretch stretch{ends_there(span[0]), ends_there(span[1])};
+  if (stretch.from.facet < 0 && stretch.to.facet < 0) return;
+  std::vector<double> more, growth;
+  opposite.stretch_motion(hit, stretch, 8, more, growth);
+  const Vector along = hit.pair.own[1] - hit.pair.own[0];
+  double* position = motion.position.data() + motion.position.size() - 16;
+  double* weight = motion.relative_weight.data() + motion.relative_weight.size() - 8;
+  for (int m = 0; m < 8; ++m) {
+    slide[m] += more[m];
+    weight[m] += growth[m];
+    for (int d = 0; d < 2; ++d) position[d * 8 + m] += more[m] * along[d];
+  }
+}
+
+void SurfaceInFluid::add_partner(Element& element, const OppositePoints::Hit& hit,
+                                 const PairMotion& change) const {
+  const int dim = dimension();
+  other_->to_cell(hit.facet, hit.pair.on_opposite.data(), element.other.reference);
+  element.gap.push_back(hit.pair.gap);
+  PointMotion& motion = element.motion;
+  const int* places = other_->places(hit.facet);
+  motion.node.insert(motion.node.end(), places, places + dim);
+  other_->motion_to_cell(hit.facet, change.on_opposite.data(), static_cast<int>(change.gap.size()),
+                         motion.reference[2]);
+  append(change.gap, motion.gap);
+}
+
+void SurfaceInFluid::add_closed(const OppositePoints& opposite) {
+  const Communicator& communicator = fluid_->mesh().communicator();
+  std::vector<Edge> mine;
+  for (const Part part : {near, free}) {
+    // The nearest wet point is one of those that face the other body, where there are any.
+    if (part == free && communicator.any(!mine.empty())) break;
+    for (std::size_t e = 0; e < elements_[part].size(); ++e) {
+      const Element& element = elements_[part][e];
+      ElementSide side;
+      attach_cell(side, *fluid_, element.fluid.cell, element.fluid.part);
+      element.fluid.attach(side, false);
+      side.map_geometry();
+      const std::size_t dim = dimension();
+      for (std::size_t q = 0; q < element.fluid.weight.size(); ++q) {
+        Edge edge{{}, communicator.rank(), part, static_cast<int>(e), static_cast<int>(q)};
+        std::copy_n(&side.position[q * dim], dim, edge.position.begin());
+        mine.push_back(edge);
+      }
+    }
+  }
+  const std::vector<Edge> edges = communicator.gather_all(mine);
+  std::vector<Wet> wet = communicator.gather_all(wet_);
+  std::ranges::stable_sort(wet, {}, &Wet::facet);
+  for (auto from = wet.begin(), facet_end = from; int facet : std::views::iota(0, own_->facet_count())) {
+    facet_end = std::find_if(from, wet.end(), [&](const Wet& w) { return w.facet != facet; });
+    add_closed_facet(facet, {from, facet_end}, edges, opposite);
+    from = facet_end;
+  }
+}
+
+void SurfaceInFluid::add_closed_facet(int facet, const std::vector<Wet>& wet, const std::vector<Edge>& edges,
+                                      const OppositePoints& opposite) {
+  const double area = opposite.area(facet);
+  if (dimension() == 2) {
+    std::vector<std::pair<double, double>> parts;
+    for (const Wet& w : wet) parts.emplace_back(w.from, w.to);
+    for (const auto& [from, to] : rest(parts))
+      for (const OppositePoints::Stretch& stretch : opposite.stretches(facet, from, to))
+        for (int q = 0; q < rule_->count(); ++q) {
+          const double share = stretch.from.share + rule_->points[q] * stretch.length();
+          if (const auto hit = opposite.find(facet, &share))
+            add_closed_point(facet, *hit, stretch, area * stretch.length() * rule_->weights[q], edges,
+                             opposite);
+        }
+    return;
+  }
+  // In space the closed points of a facet that is closed in part are those behind the other surface; together
+  // they stand for all that is not wet.
+  double left = area / 2;
+  for (const Wet& w : wet) left -= w.area;
+  if (left <= hair * area) return;
+  const bool all = wet.empty();
+  std::vector<std::pair<OppositePoints::Hit, double>> points;
+  double sum = 0;
+  for (int q = 0; q < rule_->count(); ++q) {
+    const auto hit = opposite.find(facet, &rule_->points[static_cast<std::size_t>(q) * 2]);
+    if (!hit || (!all && hit->pair.gap >= 0)) continue;
+    points.emplace_back(*hit, area * rule_->weights[q]);
+    sum += points.back().second;
+  }
+  const double scale = all ? 1.0 : std::min(2.0, left / sum);
+  for (const auto& [hit, weight] : points)
+    add_closed_point(facet, hit, {{0}, {1}}, scale * weight, edges, opposite);
+}
+
+void SurfaceInFluid::add_closed_point(int facet, const OppositePoints::Hit& hit,
+                                      const OppositePoints::Stretch& stretch, double weight,
+                                      const std::vector<Edge>& edges, const OppositePoints& opposite) {
+  const auto dim = static_cast<std::size_t>(dimension()), moves = 2 * dim * dim;
+  const FacetPair& pair = hit.pair;
+  Vector x = pair.own[0];
+  for (std::size_t k = 1; k < dim; ++k) x = x + pair.on_own[k - 1] * (pair.own[k] - pair.own[0]);
+  const auto nearest = std::ranges::min_element(edges, {}, [&](const Edge& edge) {
+    const Vector way = edge.position - x;
+    return dot(way, way);
+  });
+  if (nearest == edges.end())
+    throw StepRefused(
+        fmt::format("no point of the surface of '{}' is in the field '{}': nothing says what "
+                    "its closed parts push against",
+                    own_->body().name(), fluid_->name()));
+  if (nearest->rank != fluid_->mesh().communicator().rank()) return;
+  const Element& source = elements_[nearest->part][nearest->element];
+  Element fresh;
+  fresh.fluid.cell = source.fluid.cell;
+  fresh.fluid.part = source.fluid.part;
+  fresh.group = own_->group(facet);
+  fresh.other_group = other_->group(hit.facet);
+  fresh.own_edge_group = source.group;
+  // A wet point without an opposite one does not move with the other body: any of its cells will do.
+  fresh.other_edge_group = source.other_group >= 0 ? source.other_group : fresh.other_group;
+  fresh.trace_size = source.trace_size;
+  std::vector<Element>& all = elements_[closed];
+  auto found =
+      std::find_if(all.rbegin(), all.rend(), [&](const Element& e) { return key_of(e) == key_of(fresh); });
+  if (found == all.rend()) {
+    all.push_back(std::move(fresh));
+    found = all.rbegin();
+  }
+  Element& element = *found;
+  std::vector<double> slide, growth;
+  if (dim == 2) opposite.stretch_motion(hit, stretch, static_cast<int>(moves), slide, growth);
+  PairMotion change = pair_motion(pair, static_cast<int>(moves), slide);
+  for (std::size_t m = 0; m < growth.size(); ++m) change.relative_weight[m] += growth[m];
+  for (double& component : change.normal) component = -component;
+  slide.resize((dim - 1) * moves, 0.0);
+  // The moves of the two facets at the nearest wet point come behind those of the two facets here.
+  const auto widened = [&](const std::vector<double>& from) {
+    std::vector<double> to;
+    append_rows(from.data(), from.size() / moves, moves, 2 * moves, to);
+    return to;
+  };
+  change.gap = widened(change.gap);
+  change.on_opposite = widened(change.on_opposite);
+
+  for (CutPoints* points :
+       {&element.fluid, &element.own, &element.other, &element.own_edge, &element.other_edge})
+    points->weight.push_back(weight);
+  for (std::size_t d = 0; d < dim; ++d) element.normal.push_back(-opposite.normal(facet)[d]);
+  own_->to_cell(facet, pair.on_own.data(), element.own.reference);
+  PointMotion& motion = element.motion;
+  const int* places = own_->places(facet);
+  motion.node.insert(motion.node.end(), places, places + dim);
+  own_->motion_to_cell(facet, widened(slide).data(), static_cast<int>(2 * moves), motion.reference[1]);
+  append(widened(change.normal), motion.normal);
+  append(widened(change.relative_weight), motion.relative_weight);
+  add_partner(element, hit, change);
+  add_edge(element, source, static_cast<std::size_t>(nearest->point));
+}
+
+/// Lets the last point of a closed element see a wet point, and move along with it.
+void SurfaceInFluid::add_edge(Element& element, const Element& source, std::size_t point) const {
+  const auto dim = static_cast<std::size_t>(dimension()), size = dim * dim;
+  const std::size_t movers = source.other_group >= 0 ? 2 : 1;
+  const auto copy = [&](const std::vector<double>& from, std::vector<double>& to) {
+    to.insert(to.end(), &from[point * dim], &from[point * dim] + dim);
+  };
+  copy(source.fluid.reference, element.fluid.reference);
+  copy(source.own.reference, element.own_edge.reference);
+  if (movers == 2)
+    copy(source.other.reference, element.other_edge.reference);
+  else
+    element.other_edge.reference.resize(element.other_edge.reference.size() + dim, 0.25);
+  PointMotion& motion = element.motion;
+  const int* node = &source.motion.node[point * movers * dim];
+  motion.node.insert(motion.node.end(), node, node + movers * dim);
+  motion.node.resize(motion.node.size() + (2 - movers) * dim, 0);
+  const auto shifted = [&](const std::vector<double>& from, std::vector<double>& to) {
+    const std::size_t moves = movers * size;
+    for (std::size_t row = 0; row < dim; ++row) {
+      const double* begin = &from[(point * dim + row) * moves];
+      to.resize(to.size() + 2 * size, 0.0);
+      to.insert(to.end(), begin, begin + moves);
+      to.resize(to.size() + (2 - movers) * size, 0.0);
+    }
+  };
+  shifted(source.motion.position, motion.position);
+  shifted(source.motion.reference[1], motion.reference[3]);
+  motion.reference[4].resize(motion.reference[4].size() + dim * 4 * size, 0.0);  // nothing is read there
+}
+
+}  // namespace seam

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact_kernels.hpp"
+#include "fluid_sided.hpp"
+
+/// Fluid, body and contact by one formula, thesis chapter 6. With the body's outward normal n = -n_F the
+/// normal traction on its surface is
+///
+///   min(F, S),  F = n . sigma_F n + gamma_F (v - du/dt) . n,  S = n . sigma_S n + gamma_S g      (6.15)
+///
+/// whether fluid is there or not: in the closed part of the surface F is that of the nearest wet point
+/// (6.3.3). Wet points: the fluid gets all of FluidSided, with F, and with a slip length that grows as the
+/// gap closes (Remark 6.7, (6.30)); the body gets min(F, S) n and the fluid's friction. Adjoint terms stay in
+/// both states: dropped in contact, as (6.23) has it, they make the residual jump where a point changes its
+/// state. Closed points: the body gets min(F, S) n.
+namespace seam::fsci {
+
+using OppositeDisplacement = Vector<3>;
+using EdgeDisplacement = Vector<4>;
+
+/// F.
+struct FluidPull {
+  Flow flow;
+  double penalty;  ///< gamma_n of thesis (3.26)
+
+  /// @param body the body's velocity @param n out of the fluid
+  template <int dim, class T, class G>
+  [[nodiscard]] T operator()(const Point<dim, G>& x, const Vec<dim, T>& velocity,
+                             const Mat<dim, dim, T>& gradient, const T& pressure,
+                             const Vec<dim, T>& body) const {
+    const Vec<dim, G>& n = x.normal;
+    const Vec<dim, T> shear = ((2 * flow.viscosity) * sym(gradient)) * n;
+    return dot(shear, n) - pressure -
+           ((penalty / x.trace_size) * resistance<dim, T, G>(flow, x, velocity)) * dot(velocity - body, n);
+  }
+};
+
+/// FluidSided where there is a gap to another surface.
+struct FluidSidedNear : FluidSided {
+  static constexpr int movers = 2;
+};
+
+/// min(F, S) - F for the body at wet points.
+struct NearContact {
+  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Displacement>,
+                      Gradient<Displacement>, Gradient<OppositeDisplacement>>;
+  using Tests = Slots<Value<Displacement>>;
+  static constexpr int movers = 2;
+  FluidPull fluid;
+  BodyPull bodies;
+
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const T push = bodies.operator()<dim, T, G>(x, -x.normal, s.gradient(Displacement{}),
+                                                s.gradient(OppositeDisplacement{}));
+    const T pull = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
+                                               s.value(Pressure{}), s.rate(Displacement{}));
+    if (plain(push) < plain(pull)) r.value(Displacement{}) += (push - pull) * x.normal;
+  }
+};
+
+/// min(F, S) for the body at closed points.
+struct ClosedContact {
+  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<EdgeDisplacement>,
+                      Gradient<Displacement>, Gradient<OppositeDisplacement>>;
+  using Tests = Slots<Value<Displacement>>;
+  static constexpr int movers = 4;
+  FluidPull fluid;
+  BodyPull bodies;
+
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const T push = bodies.operator()<dim, T, G>(x, -x.normal, s.gradient(Displacement{}),
+                                                s.gradient(OppositeDisplacement{}));
+    const T pull = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
+                                               s.value(Pressure{}), s.rate(EdgeDisplacement{}));
+    r.value(Displacement{}) += (plain(push) < plain(pull) ? push : pull) * x.normal;
+  }
+};
+
+/// Whether the bodies touch, at a near or a closed point, and how hard.
+template <class Kernel>
+struct TouchState {
+  using Reads = typename Kernel::Reads;
+  enum class Number {
+    gap,       ///< m
+    touches,   ///< 1 or 0
+    pressure,  ///< -S where they touch, Pa
+    traction   ///< of this, on the body, a component, Pa
+  };
+  static constexpr int values(int) { return 1; }
+  Kernel kernel;
+  Number number;
+  int component = 0;
+
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    *value = x.gap;
+    if (number == Number::gap) return;
+    const double push = kernel.bodies.template operator()<dim, double, double>(
+        x, -x.normal, s.gradient(Displacement{}), s.gradient(OppositeDisplacement{}));
+    *value = 0;
+    if (push >= pull_of<dim>(kernel, x, s)) return;
+    *value = number == Number::touches ? 1 : -push;
+    if (number == Number::traction) *value *= x.normal[component];
+  }
+
+  /// F as the kernel has it.
+  template <int dim>
+  static double pull_of(const Kernel& kernel, const Point<dim>& x, const Trial<dim, double, Reads>& s) {
+    Vec<dim, double> body;
+    if constexpr (std::is_same_v<Kernel, NearContact>)
+      body = s.rate(Displacement{});
+    else
+      body = s.rate(EdgeDisplacement{});
+    return kernel.fluid.template operator()<dim, double, double>(
+        x, s.value(Velocity{}), s.gradient(Velocity{}), s.value(Pressure{}), body);
+  }
+};
+
+/// A component of the traction on the body that a kernel means: minus its coefficient of the test
+/// displacement.
+template <class Kernel>
+struct TractionOf {
+  using Reads = typename Kernel::Reads;
+  static constexpr int values(int) { return 1; }
+  Kernel kernel;
+  int component;
+
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    using Tests = typename Kernel::Tests;
+    double coefficients[Tests::size(dim)] = {};
+    Test<dim, double, Tests> r{coefficients};
+    kernel.template operator()<dim, double, double>(x, s, r);
+    *value = -r.value(Displacement{}).data[component];
+  }
+};
+
+/// The rate at which fluid, or body, passes out of the fluid: v . n or du/dt . n, m/s.
+template <class Speed>
+struct Outflow {
+  using Reads = Slots<Speed>;
+  static constexpr int values(int) { return 1; }
+
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    if constexpr (Speed::level == Level::rate)
+      *value = dot(s.rate(typename Speed::operand{}), x.normal);
+    else
+      *value = dot(s.value(typename Speed::operand{}), x.normal);
+  }
+};
+
+}  // namespace seam::fsci

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "contact_sides.hpp"
+
+#include <fmt/format.h>
+
+#include "trace_eigenvalue.hpp"
+
+namespace seam::fsci {
+
+std::shared_ptr<const StressLaw> law_of(const CouplingSides& sides, int side) {
+  static_cast<void>(sides.fields.at(side)->place("displacement"));
+  const auto& law = sides.fields[side]->stress_law();
+  if (!law)
+    throw Error(
+        fmt::format("contact needs bodies that make their stress known; field '{}' does not (a solid "
+                    "does, unless its formulation is mixed)",
+                    sides.fields[side]->name()));
+  return law;
+}
+
+std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,
+                                             int side) {
+  return std::make_shared<TraceEigenvalue>(law_of(sides, side), scaling_of(parameters));
+}
+
+void declare_stress(Schema& schema) {
+  schema
+      .choice("stress",
+              "Whose stress stands for that between the bodies: of `both` with harmonic weights, or that of "
+              "one, as "
+              "where the other body is held everywhere",
+              {"both", "own", "other"})
+      .otherwise("both");
+}
+
+BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
+                   double penalty) {
+  const std::string& name = parameters.text("stress");
+  const Whose whose = name == "both" ? Whose::both : (name == "own" ? Whose::own : Whose::other);
+  return {law_of(sides, own), law_of(sides, other), penalty, whose};
+}
+
+}  // namespace seam::fsci

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact_kernels.hpp"
+#include "seam/interface/interface.hpp"
+
+/// What the couplings with contact have in common.
+namespace seam::fsci {
+
+/// The stress law of the body on a side.
+/// @throws Error when the body has none, naming the field
+std::shared_ptr<const StressLaw> law_of(const CouplingSides& sides, int side);
+
+/// lambda_e of the cells on a side, by the key `scaling`.
+std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,
+                                             int side);
+
+/// Adds the key `stress`: whose stress stands for that between the bodies.
+void declare_stress(Schema& schema);
+/// @param penalty gamma_0
+BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
+                   double penalty);
+
+/// Declares the coupling "contact_in_fluid".
+void declare_contact_in_fluid(Registry& registry);
+
+}  // namespace seam::fsci
