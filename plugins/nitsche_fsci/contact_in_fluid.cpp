@@ -25,7 +25,7 @@ class ContactInFluid final : public Coupling {
         "A fluid and a deforming body that move together and share their traction, and that body's contact "
         "with "
         "another one or with itself, without friction.");
-    s.reference("on", "Interface of type contact_in_fluid: the surface of one body", "interface");
+    s.reference("on", "Interface of type embedded_contact: the surface of one body", "interface");
     s.number("slip_length", "Navier's, wherever it is: 0 is no slip, .inf leaves the body to glide freely")
         .unit("m")
         .otherwise("0")

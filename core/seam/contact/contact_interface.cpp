@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "seam/contact/contact_domain.hpp"
-#include "seam/contact/surface_in_fluid.hpp"
+#include "seam/contact/embedded_surface.hpp"
 
 namespace seam {
 namespace {
@@ -90,12 +90,13 @@ std::vector<InterfacePart> ObstacleInterface::build(InterfaceSetup& setup) const
                                            window(parameters_, *own, false), setup.degree + extra_degree)}};
 }
 
-Schema ContactInFluidInterface::schema() {
+Schema EmbeddedContactInterface::schema() {
   Schema s(
-      "A deforming body's surface, cut out of a fluid's mesh, with what lies opposite to it on another body "
+      "A deforming body's surface, cut out of another field's mesh, with what lies opposite to it on another "
+      "body "
       "or on "
       "itself.");
-  s.reference("field", "The fluid outside the bodies", "field");
+  s.reference("field", "The field outside the bodies", "field");
   s.reference("body", "The body whose surface it is", "field");
   s.reference("to", "The body that it may come to touch; may be the same", "field");
   s.names("boundaries", "Parts of the boundary of `body`; default all")
@@ -106,19 +107,21 @@ Schema ContactInFluidInterface::schema() {
   return s;
 }
 
-std::vector<InterfacePart> ContactInFluidInterface::build(InterfaceSetup& setup) const {
+std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup) const {
   const auto own = body_surface(parameters_, "body", "boundaries", setup, 1);
   const bool with_itself = setup.sides[1] == setup.sides[2];
   const bool same = with_itself && parameters_.names("boundaries") == parameters_.names("opposite");
   const auto other = same ? own : body_surface(parameters_, "to", "opposite", setup, 2);
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([own](double) { return own->now(); });
-  const auto surface = std::make_shared<SurfaceInFluid>(*setup.sides[0], cut, number, own, other,
-                                                        window(parameters_, *own, with_itself), setup.degree);
-  const auto part = [&](SurfaceInFluid::Part which) { return std::make_shared<SurfacePart>(surface, which); };
-  return {{"free", part(SurfaceInFluid::free)},
-          {"near", part(SurfaceInFluid::near)},
-          {"closed", part(SurfaceInFluid::closed), false}};
+  const auto surface = std::make_shared<EmbeddedSurface>(
+      *setup.sides[0], cut, number, own, other, window(parameters_, *own, with_itself), setup.degree);
+  const auto part = [&](EmbeddedSurface::Part which) {
+    return std::make_shared<EmbeddedPart>(surface, which);
+  };
+  return {{"free", part(EmbeddedSurface::free)},
+          {"near", part(EmbeddedSurface::near)},
+          {"closed", part(EmbeddedSurface::closed), false}};
 }
 
 void register_contact(Registry& registry) {
@@ -130,8 +133,8 @@ void register_contact(Registry& registry) {
                             return std::make_unique<ObstacleInterface>(p, types);
                           });
   registry.add<Interface>(
-      "interface", "contact_in_fluid", ContactInFluidInterface::schema(),
-      [](const Parameters& p, const Registry&) { return std::make_unique<ContactInFluidInterface>(p); });
+      "interface", "embedded_contact", EmbeddedContactInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<EmbeddedContactInterface>(p); });
 }
 
 }  // namespace seam

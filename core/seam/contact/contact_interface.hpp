@@ -42,13 +42,13 @@ class ObstacleInterface final : public Interface {
   MovingBody obstacle_;
 };
 
-/// A deforming body's surface in a fluid out of which it is cut, and what lies opposite to it there. Side 0
-/// is the fluid, side 1 the body, side 2 the other one. It has three parts, see SurfaceInFluid: `free` with
-/// sides 0 and 1, `near` with all of them and a gap, and `closed`, where side 0 is the nearest wet point's
-/// fluid and side 3 the body there.
-class ContactInFluidInterface final : public Interface {
+/// A deforming body's surface in a field out of whose mesh it is cut, and what lies opposite to it there.
+/// Side 0 is that field, side 1 the body, side 2 the other one. It has three parts, see EmbeddedSurface:
+/// `free` with sides 0 and 1, `near` with all of them and a gap, and `closed`, where side 0 is the nearest
+/// wet point's trace and sides 3 and 4 are the two bodies there.
+class EmbeddedContactInterface final : public Interface {
  public:
-  explicit ContactInFluidInterface(const Parameters& parameters) : parameters_(parameters) {}
+  explicit EmbeddedContactInterface(const Parameters& parameters) : parameters_(parameters) {}
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override {
     return {parameters_.text("field"), parameters_.text("body"), parameters_.text("to")};
@@ -59,7 +59,7 @@ class ContactInFluidInterface final : public Interface {
   Parameters parameters_;
 };
 
-/// Registers "contact", "obstacle" and "contact_in_fluid".
+/// Registers "contact", "obstacle" and "embedded_contact".
 void register_contact(Registry& registry);
 
 }  // namespace seam

@@ -13,28 +13,28 @@
 
 namespace seam {
 
-/// All of a body's surface in a fluid that it is cut out of, where it may come to touch another surface, or
-/// itself: the consistent pair of fluid domain and interface of thesis 6.2.1.2. Every point of the surface is
-/// in exactly one of three parts. What the fluid's mesh has of the surface is wet; there, a point may have an
-/// opposite one or not. The rest, inside of the other body or in a part of the fluid too small to be kept, is
+/// All of a body's surface in a field that it is cut out of, where it may come to touch another surface, or
+/// itself: the consistent pair of domain and interface of thesis 6.2.1.2. Every point of the surface is
+/// in exactly one of three parts. What the field's mesh has of the surface is wet; there, a point may have an
+/// opposite one or not. The rest, inside of the other body or in a part of the field too small to be kept, is
 /// closed; it counts where it has an opposite point.
-class SurfaceInFluid {
+class EmbeddedSurface {
  public:
-  /// @param number of the body among those that cut the fluid's mesh
-  /// @param degree to integrate exactly, as the fluid's cells count it
-  SurfaceInFluid(Field& fluid, const FieldCut& cut, int number, std::shared_ptr<const BodySurface> own,
-                 std::shared_ptr<const BodySurface> other, ContactWindow window, int degree);
+  /// @param number of the body among those that cut the field's mesh
+  /// @param degree to integrate exactly, as the field's cells count it
+  EmbeddedSurface(Field& field, const FieldCut& cut, int number, std::shared_ptr<const BodySurface> own,
+                  std::shared_ptr<const BodySurface> other, ContactWindow window, int degree);
 
   enum Part { free, near, closed };
   static constexpr int part_count = 3;
 
-  /// Points that share the cells on all sides. Of closed ones side 0, the fluid, and sides 3 and 4, the two
-  /// bodies, are met elsewhere, at the nearest wet point: there fluid and body are evaluated for the closed
+  /// Points that share the cells on all sides. Of closed ones side 0, the field, and sides 3 and 4, the two
+  /// bodies, are met elsewhere, at the nearest wet point: there field and bodies are evaluated for the closed
   /// part (extension of thesis 6.3.3). That point moves with the facets of both bodies there.
   struct Element {
-    CutPoints fluid, own, other, own_edge, other_edge;
+    CutPoints outside, own, other, own_edge, other_edge;
     int group = -1, other_group = -1, own_edge_group = -1, other_edge_group = -1;
-    std::vector<double> normal, gap;  ///< normal: out of the fluid, into the body
+    std::vector<double> normal, gap;  ///< normal: out of the field, into the body
     double trace_size = 0;
     PointMotion motion;
   };
@@ -43,7 +43,7 @@ class SurfaceInFluid {
   /// Finds all points anew. Collective. @return true when elements are others than before
   bool follow();
 
-  [[nodiscard]] Field& fluid() const { return *fluid_; }
+  [[nodiscard]] Field& field() const { return *field_; }
   [[nodiscard]] const BodySurface& own() const { return *own_; }
   [[nodiscard]] const BodySurface& other() const { return *other_; }
 
@@ -54,13 +54,13 @@ class SurfaceInFluid {
     double from, to;  ///< in the plane
     double area;
   };
-  /// A wet point that a closed one may take its fluid from.
+  /// A wet point that a closed one may take its field's trace from.
   struct Edge {
     cutting::Vector position;
     int rank, part, element, point;
   };
   struct Key {
-    int fluid_cell, fluid_part, group, other_group, own_edge_group, other_edge_group;
+    int outside_cell, outside_part, group, other_group, own_edge_group, other_edge_group;
     friend bool operator==(const Key&, const Key&) = default;
   };
   void add_wet(int cell, int part, const OppositePoints& opposite);
@@ -76,9 +76,9 @@ class SurfaceInFluid {
   void add_partner(Element& element, const OppositePoints::Hit& hit, const PairMotion& change) const;
   [[nodiscard]] static Key key_of(const Element& element);
   [[nodiscard]] std::vector<Key> keys() const;
-  [[nodiscard]] int dimension() const { return fluid_->mesh().dimension(); }
+  [[nodiscard]] int dimension() const { return field_->mesh().dimension(); }
 
-  Field* fluid_;
+  Field* field_;
   const FieldCut* cut_;
   int number_, degree_;
   std::shared_ptr<const BodySurface> own_, other_;
@@ -89,15 +89,15 @@ class SurfaceInFluid {
 };
 
 /// One of the parts as a domain of integration.
-class SurfacePart final : public IntegrationDomain {
+class EmbeddedPart final : public IntegrationDomain {
  public:
-  SurfacePart(std::shared_ptr<SurfaceInFluid> surface, SurfaceInFluid::Part part);
+  EmbeddedPart(std::shared_ptr<EmbeddedSurface> surface, EmbeddedSurface::Part part);
   [[nodiscard]] int size() const override { return static_cast<int>(surface_->elements(part_).size()); }
   [[nodiscard]] std::vector<Field*> fields() const override;
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
-  [[nodiscard]] int swept_side() const override { return part_ == SurfaceInFluid::closed ? -1 : 0; }
+  [[nodiscard]] int swept_side() const override { return part_ == EmbeddedSurface::closed ? -1 : 0; }
   /// The first part finds the points of all.
   bool follow(double time) override;
   int add_constant(int side, std::shared_ptr<const CellConstant> constant) override;
@@ -105,8 +105,8 @@ class SurfacePart final : public IntegrationDomain {
   [[nodiscard]] std::string description() const override;
 
  private:
-  std::shared_ptr<SurfaceInFluid> surface_;
-  SurfaceInFluid::Part part_;
+  std::shared_ptr<EmbeddedSurface> surface_;
+  EmbeddedSurface::Part part_;
   std::vector<Operand> movers_;
   struct Constant {
     int side, number;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seam/contact/surface_in_fluid.hpp"
+#include "seam/contact/embedded_surface.hpp"
 
 #include <fmt/format.h>
 
@@ -48,48 +48,48 @@ std::vector<std::pair<double, double>> rest(std::vector<std::pair<double, double
 
 }  // namespace
 
-SurfaceInFluid::SurfaceInFluid(Field& fluid, const FieldCut& cut, int number,
-                               std::shared_ptr<const BodySurface> own,
-                               std::shared_ptr<const BodySurface> other, ContactWindow window, int degree)
-    : fluid_(&fluid),
+EmbeddedSurface::EmbeddedSurface(Field& field, const FieldCut& cut, int number,
+                                 std::shared_ptr<const BodySurface> own,
+                                 std::shared_ptr<const BodySurface> other, ContactWindow window, int degree)
+    : field_(&field),
       cut_(&cut),
       number_(number),
-      degree_(oblique_degree(fluid.mesh().type(), degree)),
+      degree_(oblique_degree(field.mesh().type(), degree)),
       own_(std::move(own)),
       other_(std::move(other)),
       window_(window),
-      rule_(&quadrature(fluid.mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree_)) {}
+      rule_(&quadrature(field.mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree_)) {}
 
-bool SurfaceInFluid::follow() {
+bool EmbeddedSurface::follow() {
   const std::vector<Key> before = keys();
   for (auto& of_part : elements_) of_part.clear();
   wet_.clear();
   const OppositePoints opposite(*own_, other_.get(), other_->now(), window_);
-  if (fluid_->cut())
-    for (const int cell : fluid_->cut()->cut_cells()) {
-      if (cell >= fluid_->mesh().owned_cells() || !fluid_->active_cells()[cell]) continue;
-      for (int part = 0; part < fluid_->parts(cell); ++part) add_wet(cell, part, opposite);
+  if (field_->cut())
+    for (const int cell : field_->cut()->cut_cells()) {
+      if (cell >= field_->mesh().owned_cells() || !field_->active_cells()[cell]) continue;
+      for (int part = 0; part < field_->parts(cell); ++part) add_wet(cell, part, opposite);
     }
   add_closed(opposite);
   return before != keys();
 }
 
-std::vector<SurfaceInFluid::Key> SurfaceInFluid::keys() const {
+std::vector<EmbeddedSurface::Key> EmbeddedSurface::keys() const {
   std::vector<Key> result;
   for (const auto& of_part : elements_)
     for (const Element& e : of_part) result.push_back(key_of(e));
   return result;
 }
 
-SurfaceInFluid::Key SurfaceInFluid::key_of(const Element& e) {
-  return {e.fluid.cell, e.fluid.part, e.group, e.other_group, e.own_edge_group, e.other_edge_group};
+EmbeddedSurface::Key EmbeddedSurface::key_of(const Element& e) {
+  return {e.outside.cell, e.outside.part, e.group, e.other_group, e.own_edge_group, e.other_edge_group};
 }
 
-void SurfaceInFluid::add_wet(int cell, int part, const OppositePoints& opposite) {
+void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite) {
   const auto dim = static_cast<std::size_t>(dimension()), moves = dim * dim;
   InterfaceRule rule;
   InterfaceMotion motion;
-  fluid_->cut()->interface_rule(cell, degree_, rule, &motion, part);
+  field_->cut()->interface_rule(cell, degree_, rule, &motion, part);
   std::map<std::pair<int, int>, std::pair<Part, int>> place;  // of an element, by the groups of its points
   for (int q = 0; q < rule.count(); ++q) {
     if (rule.body[q] != number_) continue;
@@ -108,17 +108,17 @@ void SurfaceInFluid::add_wet(int cell, int part, const OppositePoints& opposite)
     const auto [found, is_new] = place.try_emplace({group, other_group}, which, elements_[which].size());
     if (is_new) {
       Element& added = elements_[which].emplace_back();
-      added.fluid.cell = cell;
-      added.fluid.part = part;
+      added.outside.cell = cell;
+      added.outside.part = part;
       added.group = group;
       added.other_group = other_group;
       added.trace_size = cut_->trace_size(cell);
     }
     Element& element = elements_[which][found->second.second];
     const std::size_t wide = hit ? 2 * moves : moves;
-    element.fluid.weight.push_back(rule.weight[q]);
+    element.outside.weight.push_back(rule.weight[q]);
     for (std::size_t d = 0; d < dim; ++d) {
-      element.fluid.reference.push_back(rule.reference[at * dim + d]);
+      element.outside.reference.push_back(rule.reference[at * dim + d]);
       element.normal.push_back(rule.normal[at * dim + d]);
     }
     own_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], element.own.reference);
@@ -140,9 +140,9 @@ void SurfaceInFluid::add_wet(int cell, int part, const OppositePoints& opposite)
 
 /// In the plane: the cut lets a piece that ends on another body keep its share of the facet; add how the end
 /// follows that body. @param span of the last point added
-void SurfaceInFluid::add_edge_motion(const OppositePoints::Hit& hit, const double* span,
-                                     const OppositePoints& opposite, std::vector<double>& slide,
-                                     PointMotion& motion) {
+void EmbeddedSurface::add_edge_motion(const OppositePoints::Hit& hit, const double* span,
+                                      const OppositePoints& opposite, std::vector<double>& slide,
+                                      PointMotion& motion) {
   const int facet = hit.own_facet;
   const auto ends_there = [&](double share) {
     const OppositePoints::Break end = opposite.end_at(facet, share);
@@ -162,8 +162,8 @@ void SurfaceInFluid::add_edge_motion(const OppositePoints::Hit& hit, const doubl
   }
 }
 
-void SurfaceInFluid::add_partner(Element& element, const OppositePoints::Hit& hit,
-                                 const PairMotion& change) const {
+void EmbeddedSurface::add_partner(Element& element, const OppositePoints::Hit& hit,
+                                  const PairMotion& change) const {
   const int dim = dimension();
   other_->to_cell(hit.facet, hit.pair.on_opposite.data(), element.other.reference);
   element.gap.push_back(hit.pair.gap);
@@ -175,8 +175,8 @@ void SurfaceInFluid::add_partner(Element& element, const OppositePoints::Hit& hi
   append(change.gap, motion.gap);
 }
 
-void SurfaceInFluid::add_closed(const OppositePoints& opposite) {
-  const Communicator& communicator = fluid_->mesh().communicator();
+void EmbeddedSurface::add_closed(const OppositePoints& opposite) {
+  const Communicator& communicator = field_->mesh().communicator();
   std::vector<Edge> mine;
   for (const Part part : {near, free}) {
     // The nearest wet point is one of those that face the other body, where there are any.
@@ -184,11 +184,11 @@ void SurfaceInFluid::add_closed(const OppositePoints& opposite) {
     for (std::size_t e = 0; e < elements_[part].size(); ++e) {
       const Element& element = elements_[part][e];
       ElementSide side;
-      attach_cell(side, *fluid_, element.fluid.cell, element.fluid.part);
-      element.fluid.attach(side, false);
+      attach_cell(side, *field_, element.outside.cell, element.outside.part);
+      element.outside.attach(side, false);
       side.map_geometry();
       const std::size_t dim = dimension();
-      for (std::size_t q = 0; q < element.fluid.weight.size(); ++q) {
+      for (std::size_t q = 0; q < element.outside.weight.size(); ++q) {
         Edge edge{{}, communicator.rank(), part, static_cast<int>(e), static_cast<int>(q)};
         std::copy_n(&side.position[q * dim], dim, edge.position.begin());
         mine.push_back(edge);
@@ -205,8 +205,8 @@ void SurfaceInFluid::add_closed(const OppositePoints& opposite) {
   }
 }
 
-void SurfaceInFluid::add_closed_facet(int facet, const std::vector<Wet>& wet, const std::vector<Edge>& edges,
-                                      const OppositePoints& opposite) {
+void EmbeddedSurface::add_closed_facet(int facet, const std::vector<Wet>& wet, const std::vector<Edge>& edges,
+                                       const OppositePoints& opposite) {
   const double area = opposite.area(facet);
   if (dimension() == 2) {
     std::vector<std::pair<double, double>> parts;
@@ -240,9 +240,9 @@ void SurfaceInFluid::add_closed_facet(int facet, const std::vector<Wet>& wet, co
     add_closed_point(facet, hit, {{0}, {1}}, scale * weight, edges, opposite);
 }
 
-void SurfaceInFluid::add_closed_point(int facet, const OppositePoints::Hit& hit,
-                                      const OppositePoints::Stretch& stretch, double weight,
-                                      const std::vector<Edge>& edges, const OppositePoints& opposite) {
+void EmbeddedSurface::add_closed_point(int facet, const OppositePoints::Hit& hit,
+                                       const OppositePoints::Stretch& stretch, double weight,
+                                       const std::vector<Edge>& edges, const OppositePoints& opposite) {
   const auto dim = static_cast<std::size_t>(dimension()), moves = 2 * dim * dim;
   const FacetPair& pair = hit.pair;
   Vector x = pair.own[0];
@@ -255,12 +255,12 @@ void SurfaceInFluid::add_closed_point(int facet, const OppositePoints::Hit& hit,
     throw StepRefused(
         fmt::format("no point of the surface of '{}' is in the field '{}': nothing says what "
                     "its closed parts push against",
-                    own_->body().name(), fluid_->name()));
-  if (nearest->rank != fluid_->mesh().communicator().rank()) return;
+                    own_->body().name(), field_->name()));
+  if (nearest->rank != field_->mesh().communicator().rank()) return;
   const Element& source = elements_[nearest->part][nearest->element];
   Element fresh;
-  fresh.fluid.cell = source.fluid.cell;
-  fresh.fluid.part = source.fluid.part;
+  fresh.outside.cell = source.outside.cell;
+  fresh.outside.part = source.outside.part;
   fresh.group = own_->group(facet);
   fresh.other_group = other_->group(hit.facet);
   fresh.own_edge_group = source.group;
@@ -291,7 +291,7 @@ void SurfaceInFluid::add_closed_point(int facet, const OppositePoints::Hit& hit,
   change.on_opposite = widened(change.on_opposite);
 
   for (CutPoints* points :
-       {&element.fluid, &element.own, &element.other, &element.own_edge, &element.other_edge})
+       {&element.outside, &element.own, &element.other, &element.own_edge, &element.other_edge})
     points->weight.push_back(weight);
   for (std::size_t d = 0; d < dim; ++d) element.normal.push_back(-opposite.normal(facet)[d]);
   own_->to_cell(facet, pair.on_own.data(), element.own.reference);
@@ -306,13 +306,13 @@ void SurfaceInFluid::add_closed_point(int facet, const OppositePoints::Hit& hit,
 }
 
 /// Lets the last point of a closed element see a wet point, and move along with it.
-void SurfaceInFluid::add_edge(Element& element, const Element& source, std::size_t point) const {
+void EmbeddedSurface::add_edge(Element& element, const Element& source, std::size_t point) const {
   const auto dim = static_cast<std::size_t>(dimension()), size = dim * dim;
   const std::size_t movers = source.other_group >= 0 ? 2 : 1;
   const auto copy = [&](const std::vector<double>& from, std::vector<double>& to) {
     to.insert(to.end(), &from[point * dim], &from[point * dim] + dim);
   };
-  copy(source.fluid.reference, element.fluid.reference);
+  copy(source.outside.reference, element.outside.reference);
   copy(source.own.reference, element.own_edge.reference);
   if (movers == 2)
     copy(source.other.reference, element.other_edge.reference);
