@@ -24,6 +24,18 @@ inline std::vector<std::vector<double>> table(const std::string& csv) {
   return rows;
 }
 
+/// The numbers of a column of a series.csv.
+inline std::vector<double> column(const std::string& csv, const std::string& name) {
+  std::istringstream in(csv.substr(0, csv.find('\n')));
+  std::string cell;
+  std::size_t at = 0;
+  while (std::getline(in, cell, ',') && cell != name) ++at;
+  REQUIRE(cell == name);
+  std::vector<double> result;
+  for (const auto& row : table(csv)) result.push_back(row[at]);
+  return result;
+}
+
 /// Largest difference between two series, each column relative to its largest value, or to `least` where that
 /// is less.
 inline double difference(const std::string& first, const std::string& second, double least = 0) {

@@ -106,7 +106,7 @@ class InteriorFaceDomain final : public IntegrationDomain {
   void update(const Field& field) override;
 
  private:
-  [[nodiscard]] bool belongs(const Mesh::InteriorFace& face) const;
+  [[nodiscard]] bool belongs(const Mesh::InteriorFace& face, bool belonged) const;
   struct OrientedFace {
     CellFace side[2];
     int part[2];
@@ -115,6 +115,7 @@ class InteriorFaceDomain final : public IntegrationDomain {
   void add(const Mesh::InteriorFace& face);
   Field* field_;
   Faces choice_;
+  std::vector<char> belongs_;  ///< [interior face of the mesh]
   std::vector<OrientedFace> faces_;
   FaceTables tables_;
 };

@@ -98,7 +98,7 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
   residual_.assign(size_, 0.0);
   magnitude_.assign(size_, 0.0);
   if (with_tangent) matrix_.assign(static_cast<std::size_t>(size_) * size_, 0.0);
-  moves_now_ = with_tangent && moves_ > 0 && !at.initial_rates;
+  moves_now_ = with_tangent && moves_ > 0 && !at.initial_rates && !at.frozen;
   if (role_ == Role::sweep && !moves_now_) return;
   compute_operators();
   gather();

@@ -23,6 +23,8 @@ struct TimePoint {
   double second_rate_factor = 0;
   /// Only for the consistent initial rates: differentiate with respect to the highest rate instead.
   bool initial_rates = false;
+  /// Points of moving interfaces stay where they are: the tangent leaves their motion out.
+  bool frozen = false;
 };
 
 /// A term and where its operands are found.

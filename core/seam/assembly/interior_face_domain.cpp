@@ -13,10 +13,10 @@ InteriorFaceDomain::InteriorFaceDomain(Field& field, int degree, Faces faces)
   InteriorFaceDomain::update(field);
 }
 
-bool InteriorFaceDomain::belongs(const Mesh::InteriorFace& face) const {
+bool InteriorFaceDomain::belongs(const Mesh::InteriorFace& face, bool belonged) const {
   const int cells[2] = {face.side[0].cell, face.side[1].cell};
   if (!field_->active_cells()[cells[0]] || !field_->active_cells()[cells[1]]) return false;
-  if (choice_ == Faces::all) return true;
+  if (choice_ == Faces::all || (belonged && field_->keeps_cut_faces())) return true;
   const bool is_cut[2] = {field_->is_cut(cells[0]), field_->is_cut(cells[1])};
   if (!is_cut[0] && !is_cut[1]) return false;
   // Next to a whole cell the face is wet, at least in part.
@@ -31,8 +31,12 @@ bool InteriorFaceDomain::belongs(const Mesh::InteriorFace& face) const {
 void InteriorFaceDomain::update(const Field& field) {
   if (&field != field_) return;
   faces_.clear();
-  for (const Mesh::InteriorFace& face : field.mesh().interior_faces())
-    if (belongs(face)) add(face);
+  const auto& faces = field.mesh().interior_faces();
+  belongs_.resize(faces.size(), 0);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    belongs_[k] = belongs(faces[k], belongs_[k] != 0) ? 1 : 0;
+    if (belongs_[k] != 0) add(faces[k]);
+  }
 }
 
 void InteriorFaceDomain::add(const Mesh::InteriorFace& face) {

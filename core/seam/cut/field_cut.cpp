@@ -41,7 +41,10 @@ bool FieldCut::update(double time) {
   time_ = time;
   const bool decides = !decided_;
   decided_ = true;
-  if (decides) held_.clear();
+  if (decides) {
+    held_.clear();
+    field_->keep_cut_faces(false);
+  }
   if (surfaces == surfaces_ && (is_first_cut_ || !decides) && states_match()) return false;
   mesh_.cut(surfaces);
   surfaces_ = std::move(surfaces);

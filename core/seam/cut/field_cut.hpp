@@ -38,8 +38,11 @@ class FieldCut {
   void begin_step() { decided_ = false; }
 
   /// Cells that are active now stay so to the end of the step: covered ones keep their unknowns, held by
-  /// ghost penalties alone (thesis 6.3.2).
-  void hold() { held_ = active_; }
+  /// ghost penalties alone (thesis 6.3.2), and faces that bear these go on to do so.
+  void hold() {
+    held_ = active_;
+    field_->keep_cut_faces(true);
+  }
 
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to

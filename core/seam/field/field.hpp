@@ -115,6 +115,10 @@ class Field {
   /// True when this local cell is kept active though a body has covered it altogether: nothing is integrated
   /// over it and nothing of it is shown.
   [[nodiscard]] bool is_covered(int cell) const;
+  /// While it is true, interior faces that have counted as faces of a cut cell go on to do so: with the set
+  /// of them the ghost penalty would jump.
+  void keep_cut_faces(bool keep) { keeps_cut_faces_ = keep; }
+  [[nodiscard]] bool keeps_cut_faces() const { return keeps_cut_faces_; }
 
  private:
   static void resize(Block& block);
@@ -127,6 +131,7 @@ class Field {
   std::vector<Block> blocks_;
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;
+  bool keeps_cut_faces_ = false;
   int sets_;
   std::shared_ptr<const PartLayout> layout_;
 };

@@ -344,8 +344,9 @@ void Simulation::finish_errors() {
   }
   finish_statistics(scene_, state_.results);
   std::vector<double> iterations;
-  int most_linear = 0;
+  int most_linear = 0, frozen = 0;
   for (const NewtonReport& report : reports_) {
+    if (report.frozen && report.converged) ++frozen;
     iterations.push_back(static_cast<double>(report.history.size()) - 1);
     for (const NewtonIteration& iteration : report.history)
       most_linear = std::max(most_linear, iteration.linear_iterations);
@@ -354,6 +355,7 @@ void Simulation::finish_errors() {
   state_.results.once["newton.iterations.median"] =
       iterations.empty() ? 0 : iterations[iterations.size() / 2];
   state_.results.once["newton.iterations.most"] = iterations.empty() ? 0 : iterations.back();
+  state_.results.once["newton.frozen_steps"] = frozen;
   state_.results.once["linear.iterations.most"] = most_linear;
   state_.results.once["unknowns"] = static_cast<double>(unknowns());
 }

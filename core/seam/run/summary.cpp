@@ -45,7 +45,10 @@ nlohmann::json histories(const std::vector<NewtonReport>& reports) {
                        {"linear_iterations", i.linear_iterations},
                        {"linear_residual", i.linear_residual},
                        {"space_changed", i.space_changed}});
-    all.push_back({{"converged", report.converged}, {"reason", report.reason}, {"iterations", steps}});
+    all.push_back({{"converged", report.converged},
+                   {"reason", report.reason},
+                   {"frozen", report.frozen},
+                   {"iterations", steps}});
   }
   return all;
 }

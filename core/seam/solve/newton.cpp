@@ -61,8 +61,35 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
   return size;
 }
 
-NewtonReport Newton::solve(const TimePoint& at) {
+bool Newton::cycles(const std::vector<NewtonIteration>& history) {
+  constexpr std::size_t patience = 3;  // iterations without progress against those two before
+  if (history.size() < free_iterations + patience + 3) return false;
+  for (std::size_t k = history.size() - patience; k < history.size(); ++k)
+    if (history[k].space_changed || history[k].residual < 0.5 * history[k - 2].residual) return false;
+  return true;
+}
+
+double Newton::distance(const std::vector<double>& increment, double factor) const {
+  double most = 0;
+  for (const FieldEntry& entry : problem_.fields())
+    for (const Unknown& unknown : entry.field->unknowns()) {
+      if (unknown.unit != "m") continue;
+      const Field::Place place = entry.field->place(unknown.name);
+      const Block& block = entry.field->blocks()[place.block];
+      for (int node = 0; node < block.space->owned_nodes(); ++node)
+        for (int c = 0; c < place.components; ++c)
+          if (const int row = problem_.assembler().row(*entry.field, place.block, node, place.offset + c);
+              row >= 0)
+            most = std::max(most, std::abs(factor * increment[row]));
+    }
+  return problem_.communicator().max(most);
+}
+
+NewtonReport Newton::solve(const TimePoint& step) {
   NewtonReport report;
+  TimePoint at = step;
+  frozen_ = false;
+  const double far = 0.01 * problem_.smallest_cut_cell();
   std::vector<double> increment;
   Size size;
   for (int iteration = 0;; ++iteration) {
@@ -75,6 +102,7 @@ NewtonReport Newton::solve(const TimePoint& at) {
           fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
       return report;
     }
+    if (frozen_) since_freezing_ += distance(increment, entry.damping);
     // After a renumbering the increment's rows mean nothing any more.
     if (entry.space_changed) increment.clear();
     const Size last = size;
@@ -94,7 +122,12 @@ NewtonReport Newton::solve(const TimePoint& at) {
         at_rounding || remainder(size.increment, last.increment) <= options_.increment_tolerance;
     if (size.residual <= options_.tolerance && settled && !entry.space_changed &&
         !problem_.assembler().prescribed_pending()) {
-      report.converged = true;
+      report.converged = !frozen_ || since_freezing_ <= far;
+      report.frozen = frozen_;
+      if (!report.converged)
+        report.reason = fmt::format(
+            "iterations cycle, and without an update of the cut bodies go on by {:.2g} m, more than {:.2g} m",
+            since_freezing_, far);
       return report;
     }
     if (iteration == options_.maximum_iterations) {
@@ -104,6 +137,11 @@ NewtonReport Newton::solve(const TimePoint& at) {
       return report;
     }
     if (iteration >= free_iterations) problem_.hold_spaces();
+    if (!frozen_ && std::isfinite(far) && cycles(report.history)) {
+      at.frozen = frozen_ = true;
+      since_freezing_ = 0;
+      problem_.assembler().assemble(at, true);
+    }
     SolveReport linear;
     solve_linear(increment, linear);
     entry.linear_iterations = linear.iterations;
@@ -130,13 +168,14 @@ bool Newton::take(const TimePoint& at, const std::vector<double>& increment, con
     }
     if (!options_.damping) return false;
     problem_.restore(before);
-    problem_.update_spaces(at);  // and with them the numbering that the increment has
+    if (!frozen_) problem_.update_spaces(at);  // and with them the numbering that the increment has
   }
   return false;
 }
 
 /// Lets spaces follow the state. False when bodies moved too far for that; a part of the way may do.
 bool Newton::follow(const TimePoint& at, NewtonIteration& entry) {
+  if (frozen_) return true;
   try {
     entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
     return true;

@@ -33,12 +33,19 @@ struct NewtonIteration {
 
 struct NewtonReport {
   bool converged = false;
-  std::string reason;  ///< when not converged
+  std::string reason;   ///< when not converged
+  bool frozen = false;  ///< the cut was not updated in the last iterations, see Newton::solve
   std::vector<NewtonIteration> history;
   double linear_seconds = 0;
 };
 
 /// Newton's method for one step, with an exact tangent (thesis 2.3, (2.126)-(2.128)).
+///
+/// What a body exerts on a field jumps a little where its surface crosses sides of the field's cells, all
+/// along a side that it happens to be parallel to. A solution may lie in such a jump: then there is none, and
+/// iterations cycle. Once they do the cut is frozen, which makes the problem smooth (thesis 6.3.1, where it
+/// always is). A step that ends so is taken when bodies have moved by no more than a hundredth of a cell
+/// since.
 class Newton {
  public:
   Newton(Problem& problem, LinearSolver& solver, NewtonOptions options)
@@ -62,9 +69,15 @@ class Newton {
             NewtonIteration& entry);
   bool follow(const TimePoint& at, NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
+  /// Whether iterations repeat themselves instead of converging.
+  [[nodiscard]] static bool cycles(const std::vector<NewtonIteration>& history);
+  /// How far the last increment moved anything, m.
+  [[nodiscard]] double distance(const std::vector<double>& increment, double factor) const;
   Problem& problem_;
   LinearSolver& solver_;
   NewtonOptions options_;
+  bool frozen_ = false;
+  double since_freezing_ = 0;  ///< how far anything has moved, m
 };
 
 /// Names the fields that can move without resistance in the present matrix, one line each; "" if none can.

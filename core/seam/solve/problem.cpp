@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include "seam/base/stopwatch.hpp"
@@ -135,6 +136,14 @@ bool Problem::constrains_rates() const {
     if (has_order(0) && has_order(1)) return true;
   }
   return false;
+}
+
+double Problem::smallest_cut_cell() const {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const FieldEntry& entry : fields_)
+    for (int c = 0; entry.cut && c < entry.mesh->owned_cells(); ++c)
+      smallest = std::min(smallest, entry.mesh->diameter(c));
+  return communicator_.min(smallest);
 }
 
 bool Problem::has_rates() const {

@@ -130,6 +130,8 @@ class Problem {
   /// What is integrated where.
   using DomainTerms = std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>;
   [[nodiscard]] const std::vector<DomainTerms>& domains() const { return domains_; }
+  /// Diameter of the smallest cell that bodies may cut, m; infinite where nothing is cut. Collective.
+  [[nodiscard]] double smallest_cut_cell() const;
   /// Seconds spent in cutting meshes and in carrying states over, for the report.
   [[nodiscard]] double cut_seconds() const { return cut_seconds_; }
   /// True when some unknown has a rate, so that time matters.
