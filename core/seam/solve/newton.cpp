@@ -61,12 +61,22 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
   return size;
 }
 
-bool Newton::cycles(const std::vector<NewtonIteration>& history) {
-  constexpr std::size_t patience = 3;  // iterations without progress against those two before
-  if (history.size() < free_iterations + patience + 3) return false;
+bool Newton::cycles(const std::vector<NewtonIteration>& history) const {
+  const std::size_t patience = freezes_ == 0 ? 3 : 1;  // iterations without progress against those two before
+  if (history.size() < freed_ + (freezes_ == 0 ? free_iterations : 0) + patience + 3) return false;
   for (std::size_t k = history.size() - patience; k < history.size(); ++k)
-    if (history[k].space_changed || history[k].residual < 0.5 * history[k - 2].residual) return false;
+    if (history[k].space_changed || history[k].residual < 0.8 * history[k - 2].residual) return false;
   return true;
+}
+
+void Newton::freeze(TimePoint& at, bool frozen, std::size_t iteration) {
+  at.frozen = frozen_ = frozen;
+  if (frozen) {
+    ++freezes_;
+    since_freezing_ = 0;
+  } else {
+    freed_ = iteration;
+  }
 }
 
 double Newton::distance(const std::vector<double>& increment, double factor) const {
@@ -89,20 +99,25 @@ NewtonReport Newton::solve(const TimePoint& step) {
   NewtonReport report;
   TimePoint at = step;
   frozen_ = false;
+  freezes_ = 0;
+  freed_ = 0;
   const double far = 0.01 * problem_.smallest_cut_cell();
   std::vector<double> increment;
   Size size;
+  bool starts = true;  // at states without an increment that led there
   for (int iteration = 0;; ++iteration) {
     NewtonIteration& entry = report.history.emplace_back();
-    if (iteration == 0) {
+    if (starts) {
       entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
       problem_.assembler().assemble(at, true);
+      increment.clear();
+      starts = false;
     } else if (!take(at, increment, size, entry)) {
       report.reason =
           fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
       return report;
     }
-    if (frozen_) since_freezing_ += distance(increment, entry.damping);
+    if (frozen_ && !increment.empty()) since_freezing_ += distance(increment, entry.damping);
     // After a renumbering the increment's rows mean nothing any more.
     if (entry.space_changed) increment.clear();
     const Size last = size;
@@ -122,6 +137,11 @@ NewtonReport Newton::solve(const TimePoint& step) {
         at_rounding || remainder(size.increment, last.increment) <= options_.increment_tolerance;
     if (size.residual <= options_.tolerance && settled && !entry.space_changed &&
         !problem_.assembler().prescribed_pending()) {
+      if (frozen_ && freezes_ == 1 && iteration < options_.maximum_iterations) {
+        freeze(at, false, report.history.size());
+        starts = true;
+        continue;
+      }
       report.converged = !frozen_ || since_freezing_ <= far;
       report.frozen = frozen_;
       if (!report.converged)
@@ -138,8 +158,7 @@ NewtonReport Newton::solve(const TimePoint& step) {
     }
     if (iteration >= free_iterations) problem_.hold_spaces();
     if (!frozen_ && std::isfinite(far) && cycles(report.history)) {
-      at.frozen = frozen_ = true;
-      since_freezing_ = 0;
+      freeze(at, true, report.history.size());
       problem_.assembler().assemble(at, true);
     }
     SolveReport linear;

@@ -43,8 +43,9 @@ struct NewtonReport {
 ///
 /// What a body exerts on a field jumps a little where its surface crosses sides of the field's cells, all
 /// along a side that it happens to be parallel to. A solution may lie in such a jump: then there is none, and
-/// iterations cycle. Once they do the cut is frozen, which makes the problem smooth (thesis 6.3.1, where it
-/// always is). A step that ends so is taken when bodies have moved by no more than a hundredth of a cell
+/// iterations cycle. When they do the cut is frozen, which makes the problem smooth (thesis 6.3.1, where it
+/// always is), and once that is solved it is freed again, since cycles have other reasons, too. Where they
+/// come back it stays frozen; the step is taken when bodies have moved by no more than a hundredth of a cell
 /// since.
 class Newton {
  public:
@@ -53,7 +54,7 @@ class Newton {
 
   /// Solves for the states at the end of the step. On failure the states are left as they are: rewind them.
   /// @throws Error when the system is singular, naming the field that is not held
-  NewtonReport solve(const TimePoint& at);
+  NewtonReport solve(const TimePoint& step);
   /// Solves for the rates that the initial values imply (needed by theta < 1).
   void solve_initial_rates(double time);
 
@@ -70,13 +71,16 @@ class Newton {
   bool follow(const TimePoint& at, NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
   /// Whether iterations repeat themselves instead of converging.
-  [[nodiscard]] static bool cycles(const std::vector<NewtonIteration>& history);
+  [[nodiscard]] bool cycles(const std::vector<NewtonIteration>& history) const;
+  void freeze(TimePoint& at, bool frozen, std::size_t iteration);
   /// How far the last increment moved anything, m.
   [[nodiscard]] double distance(const std::vector<double>& increment, double factor) const;
   Problem& problem_;
   LinearSolver& solver_;
   NewtonOptions options_;
   bool frozen_ = false;
+  int freezes_ = 0;
+  std::size_t freed_ = 0;      ///< the iteration from which on the cut has followed
   double since_freezing_ = 0;  ///< how far anything has moved, m
 };
 
