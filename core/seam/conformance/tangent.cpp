@@ -193,8 +193,9 @@ std::vector<ConformanceCheck> check_tangents(Problem& problem, const TimePoint& 
       tangent_check("whole system", tangent_error(problem, problem.assembler(), at, true))};
   std::vector<Field*> fields;
   for (FieldEntry& entry : problem.fields()) fields.push_back(entry.field.get());
-  for (const auto& [domain, terms] : problem.domains())
-    for (const BoundTerm& term : terms) {
+  for (const Problem::DomainTerms& integrated : problem.domains())
+    for (const BoundTerm& term : integrated.second) {
+      const std::shared_ptr<IntegrationDomain>& domain = integrated.first;
       const auto check = [&](const std::string& how, ElementEvaluator::Role role, bool moves) {
         Assembler alone(fields, problem.communicator());
         alone.add(domain, {term}, role);

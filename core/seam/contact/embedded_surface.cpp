@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <ranges>
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/cut_boundary.hpp"
@@ -198,10 +197,11 @@ void EmbeddedSurface::add_closed(const OppositePoints& opposite) {
   const std::vector<Edge> edges = communicator.gather_all(mine);
   std::vector<Wet> wet = communicator.gather_all(wet_);
   std::ranges::stable_sort(wet, {}, &Wet::facet);
-  for (auto from = wet.begin(), facet_end = from; int facet : std::views::iota(0, own_->facet_count())) {
-    facet_end = std::find_if(from, wet.end(), [&](const Wet& w) { return w.facet != facet; });
-    add_closed_facet(facet, {from, facet_end}, edges, opposite);
-    from = facet_end;
+  auto from = wet.begin();
+  for (int facet = 0; facet < own_->facet_count(); ++facet) {
+    const auto to = std::find_if(from, wet.end(), [&](const Wet& w) { return w.facet != facet; });
+    add_closed_facet(facet, {from, to}, edges, opposite);
+    from = to;
   }
 }
 

@@ -217,7 +217,9 @@ std::vector<double> interface_force(const Problem& problem, const std::string& i
   const std::vector<InterfacePart>& parts = problem.interfaces().at(interface);
   const Field::Place place = parts.front().domain->fields().front()->place(unknown);
   std::vector<double> sum(place.components, 0.0);
-  for (const auto& [domain, terms] : problem.domains()) {
+  for (const Problem::DomainTerms& integrated : problem.domains()) {
+    const auto& domain = integrated.first;
+    const auto& terms = integrated.second;
     if (std::ranges::none_of(parts, [&](const InterfacePart& p) { return p.domain == domain; })) continue;
     ElementEvaluator evaluator(*domain, terms);
     for (const ElementEvaluator::Part& part : evaluator.parts()) {
