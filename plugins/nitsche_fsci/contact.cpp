@@ -2,7 +2,7 @@
 #include "contact.hpp"
 
 #include "contact_kernels.hpp"
-#include "contact_sides.hpp"
+#include "coupling_sides.hpp"
 #include "seam/interface/interface.hpp"
 #include "trace_eigenvalue.hpp"
 

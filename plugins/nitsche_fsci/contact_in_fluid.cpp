@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "contact_in_fluid.hpp"
+
 #include "contact_in_fluid_kernels.hpp"
-#include "contact_sides.hpp"
+#include "coupling_sides.hpp"
 #include "seam/interface/interface.hpp"
 #include "trace_eigenvalue.hpp"
 
@@ -22,9 +24,8 @@ class ContactInFluid final : public Coupling {
 
   static Schema schema() {
     Schema s(
-        "A fluid and a deforming body that move together and share their traction, and that body's contact "
-        "with "
-        "another one or with itself, without friction.");
+        "A fluid and a deforming body that share their motion and traction, and that body's contact without "
+        "friction.");
     s.reference("on", "Interface of type embedded_contact: the surface of one body", "interface");
     s.number("slip_length", "Navier's, wherever it is: 0 is no slip, .inf leaves the body to glide freely")
         .unit("m")
@@ -39,9 +40,7 @@ class ContactInFluid final : public Coupling {
         .above(0)
         .optional();
     s.object("near_slip", "Additional slip near the other surface", slip).otherwise("{}");
-    s.choice("adjoint", "Viscous adjoint term of the fluid: `skew` (xi = 1) is stable for every penalty",
-             {"skew", "symmetric", "none"})
-        .otherwise("skew");
+    declare_adjoint(s);
     Schema penalty("Factors of Nitsche's penalty.");
     penalty.number("normal", "For the velocity across the interface, thesis (3.26)").otherwise("35").above(0);
     penalty.number("tangential", "For the velocity along it").otherwise("35").above(0);
@@ -56,16 +55,16 @@ class ContactInFluid final : public Coupling {
     const std::vector<SideConstant> scale = scales(sides);
     return {{make_term(fluid_sided(sides), 1), free_operands, {}, "free"},
             {make_term(FluidSidedNear{fluid_sided(sides)}, 1), free_operands, {}, "near"},
-            {make_term(near_contact(sides), 1), near_operands, scale, "near"},
-            {make_term(closed_contact(sides), 1), closed_operands, scale, "closed"}};
+            {make_term(NearContact{pulls<Displacement>(sides)}, 1), near_operands, scale, "near"},
+            {make_term(ClosedContact{pulls<EdgeDisplacement>(sides)}, 1), closed_operands, scale, "closed"}};
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
     using Near = TouchState<NearContact>;
     using Closed = TouchState<ClosedContact>;
     const std::vector<SideConstant> scale = scales(sides);
-    const NearContact near = near_contact(sides);
-    const ClosedContact closed = closed_contact(sides);
+    const NearContact near{pulls<Displacement>(sides)};
+    const ClosedContact closed{pulls<EdgeDisplacement>(sides)};
     const FluidSided flow = fluid_sided(sides);
     const auto on_wet = [](const std::shared_ptr<const Term>& term,
                            const std::vector<Operand>& operands = free_operands) {
@@ -99,34 +98,23 @@ class ContactInFluid final : public Coupling {
   }
 
  private:
-  [[nodiscard]] Flow flow(const CouplingSides& sides) const {
-    const Field& fluid = *sides.fields[0];
-    return {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0};
-  }
   [[nodiscard]] FluidSided fluid_sided(const CouplingSides& sides) const {
     for (const Operand& operand : free_operands)
       static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
-    const std::string& name = parameters_.text("adjoint");
     const Parameters &penalty = parameters_.object("penalty"), &near = parameters_.object("near_slip");
-    return {flow(sides),
+    return {flow_of(sides),
             {},
             {parameters_.number("slip_length"), near.number("factor"),
              near.has("reach") ? near.number("reach") : 0.0},
-            name == "skew" ? 1.0 : (name == "symmetric" ? -1.0 : 0.0),
+            adjoint_of(parameters_),
             penalty.number("normal"),
             penalty.number("tangential")};
   }
-  [[nodiscard]] FluidPull fluid_pull(const CouplingSides& sides) const {
-    return {flow(sides), parameters_.object("penalty").number("normal")};
-  }
-  [[nodiscard]] BodyPull bodies(const CouplingSides& sides) const {
-    return body_pull(parameters_, sides, 1, 2, parameters_.object("penalty").number("contact"));
-  }
-  [[nodiscard]] NearContact near_contact(const CouplingSides& sides) const {
-    return {fluid_pull(sides), bodies(sides)};
-  }
-  [[nodiscard]] ClosedContact closed_contact(const CouplingSides& sides) const {
-    return {fluid_pull(sides), bodies(sides)};
+  template <class Body>
+  [[nodiscard]] Pulls<Body> pulls(const CouplingSides& sides) const {
+    const Parameters& penalty = parameters_.object("penalty");
+    return {{flow_of(sides), penalty.number("normal")},
+            body_pull(parameters_, sides, 1, 2, penalty.number("contact"))};
   }
   [[nodiscard]] std::vector<SideConstant> scales(const CouplingSides& sides) const {
     return {{1, scale_of(parameters_, sides, 1)}, {2, scale_of(parameters_, sides, 2)}};

@@ -41,41 +41,46 @@ struct FluidSidedNear : FluidSided {
   static constexpr int movers = 2;
 };
 
-/// min(F, S) - F for the body at wet points.
-struct NearContact {
-  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Displacement>,
+/// F and S at a point that has an opposite one. @tparam Body the displacement whose rate v is compared with
+template <class Body>
+struct Pulls {
+  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Body>,
                       Gradient<Displacement>, Gradient<OppositeDisplacement>>;
   using Tests = Slots<Value<Displacement>>;
-  static constexpr int movers = 2;
   FluidPull fluid;
   BodyPull bodies;
 
   template <int dim, class T, class G>
+  [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    return fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}), s.value(Pressure{}),
+                                       s.rate(Body{}));
+  }
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    return bodies.operator()<dim, T, G>(x, -x.normal, s.gradient(Displacement{}),
+                                        s.gradient(OppositeDisplacement{}));
+  }
+};
+
+/// min(F, S) - F for the body at wet points, where FluidSided has given it F.
+struct NearContact : Pulls<Displacement> {
+  static constexpr int movers = 2;
+
+  template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const T push = bodies.operator()<dim, T, G>(x, -x.normal, s.gradient(Displacement{}),
-                                                s.gradient(OppositeDisplacement{}));
-    const T pull = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
-                                               s.value(Pressure{}), s.rate(Displacement{}));
-    if (plain(push) < plain(pull)) r.value(Displacement{}) += (push - pull) * x.normal;
+    const T f = of_fluid<dim, T, G>(x, s), contact = of_bodies<dim, T, G>(x, s);
+    if (plain(contact) < plain(f)) r.value(Displacement{}) += (contact - f) * x.normal;
   }
 };
 
 /// min(F, S) for the body at closed points.
-struct ClosedContact {
-  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<EdgeDisplacement>,
-                      Gradient<Displacement>, Gradient<OppositeDisplacement>>;
-  using Tests = Slots<Value<Displacement>>;
+struct ClosedContact : Pulls<EdgeDisplacement> {
   static constexpr int movers = 4;
-  FluidPull fluid;
-  BodyPull bodies;
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const T push = bodies.operator()<dim, T, G>(x, -x.normal, s.gradient(Displacement{}),
-                                                s.gradient(OppositeDisplacement{}));
-    const T pull = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
-                                               s.value(Pressure{}), s.rate(EdgeDisplacement{}));
-    r.value(Displacement{}) += (plain(push) < plain(pull) ? push : pull) * x.normal;
+    const T f = of_fluid<dim, T, G>(x, s), contact = of_bodies<dim, T, G>(x, s);
+    r.value(Displacement{}) += (plain(contact) < plain(f) ? contact : f) * x.normal;
   }
 };
 
@@ -98,24 +103,11 @@ struct TouchState {
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
     *value = x.gap;
     if (number == Number::gap) return;
-    const double push = kernel.bodies.template operator()<dim, double, double>(
-        x, -x.normal, s.gradient(Displacement{}), s.gradient(OppositeDisplacement{}));
+    const double contact = kernel.template of_bodies<dim, double, double>(x, s);
     *value = 0;
-    if (push >= pull_of<dim>(kernel, x, s)) return;
-    *value = number == Number::touches ? 1 : -push;
+    if (contact >= kernel.template of_fluid<dim, double, double>(x, s)) return;
+    *value = number == Number::touches ? 1 : -contact;
     if (number == Number::traction) *value *= x.normal[component];
-  }
-
-  /// F as the kernel has it.
-  template <int dim>
-  static double pull_of(const Kernel& kernel, const Point<dim>& x, const Trial<dim, double, Reads>& s) {
-    Vec<dim, double> body;
-    if constexpr (std::is_same_v<Kernel, NearContact>)
-      body = s.rate(Displacement{});
-    else
-      body = s.rate(EdgeDisplacement{});
-    return kernel.fluid.template operator()<dim, double, double>(
-        x, s.value(Velocity{}), s.gradient(Velocity{}), s.value(Pressure{}), body);
   }
 };
 

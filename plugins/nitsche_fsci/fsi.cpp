@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "coupling_sides.hpp"
 #include "fluid_sided.hpp"
 #include "seam/interface/interface.hpp"
 #include "solid_sided.hpp"
@@ -50,9 +51,7 @@ class Fsi final : public Coupling {
         .otherwise("0")
         .at_least(0)
         .or_infinite();
-    s.choice("adjoint", "Adjoint term: `skew` (xi = 1) is stable for every penalty",
-             {"skew", "symmetric", "none"})
-        .otherwise("skew");
+    declare_adjoint(s);
     Schema penalty("Factors of Nitsche's penalty, thesis (3.26), (3.29).");
     penalty.number("normal", "For the velocity across the interface, of the fluid's stress")
         .otherwise("35")
@@ -74,18 +73,15 @@ class Fsi final : public Coupling {
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
     for (const Operand& operand : operands)
       static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
-    const std::string& name = parameters_.text("adjoint");
-    const double adjoint = name == "skew" ? 1.0 : (name == "symmetric" ? -1.0 : 0.0);
+    const double adjoint = adjoint_of(parameters_);
     const Parameters& penalty = parameters_.object("penalty");
     if (!solid_sided()) {
-      const Field& fluid = *sides.fields[0];
-      const FluidSided kernel{
-          {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0},
-          jumps(),
-          {parameters_.number("slip_length")},
-          adjoint,
-          penalty.number("normal"),
-          penalty.number("tangential")};
+      const FluidSided kernel{flow_of(sides),
+                              jumps(),
+                              {parameters_.number("slip_length")},
+                              adjoint,
+                              penalty.number("normal"),
+                              penalty.number("tangential")};
       return {{make_term(kernel, 1), operands}};
     }
     const auto& law = sides.fields[1]->stress_law();

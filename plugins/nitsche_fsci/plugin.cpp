@@ -2,7 +2,7 @@
 #include "seam/plugin/plugin.hpp"
 
 #include "contact.hpp"
-#include "contact_sides.hpp"
+#include "contact_in_fluid.hpp"
 #include "fsi.hpp"
 
 SEAM_PLUGIN(registry) {

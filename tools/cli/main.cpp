@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 
@@ -8,6 +9,13 @@
 namespace {
 
 using namespace seam::cli;
+
+/// Matrices and factors are made anew in every iteration: their pages are kept, since to be given fresh ones
+/// costs a tenth of the time on small scenes.
+void keep_freed_memory() {
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);
+  mallopt(M_TRIM_THRESHOLD, 512 << 20);
+}
 
 int run_chosen(const std::vector<Command>& commands) {
   try {
@@ -25,6 +33,7 @@ int run_chosen(const std::vector<Command>& commands) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   CLI::App app("Seam: multiphysics finite elements with physics in plugins");
   app.require_subcommand(1);
   app.set_version_flag("--version", SEAM_VERSION);

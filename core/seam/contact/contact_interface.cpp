@@ -10,17 +10,25 @@ namespace seam {
 namespace {
 
 void declare_window(Schema& s) {
-  s.number("reach", "How far apart surfaces are seen to face each other; default two cells of `from`")
+  s.number("reach", "How far apart surfaces are seen to face each other; default two of the body's cells")
       .unit("m")
       .above(0)
       .optional();
-  s.number(
-       "depth",
-       "How far they may have overlapped, less than the thickness of what may touch; default half a cell of "
-       "`from`, the largest, or the smallest where a body may touch itself")
+  s.number("depth",
+           "How far they may have overlapped, less than the thickness of what may touch; default half of the "
+           "body's largest cell, or of its smallest where it may touch itself")
       .unit("m")
       .above(0)
       .optional();
+}
+
+/// The keys of a surface that looks at another one. @param own the key that names the body
+void declare_surfaces(Schema& s, const std::string& own) {
+  s.names("boundaries", "Parts of the boundary of `" + own + "`; default all")
+      .naming("boundary:" + own)
+      .otherwise("[]");
+  s.names("opposite", "Parts of the boundary of `to`; default all").naming("boundary:to").otherwise("[]");
+  declare_window(s);
 }
 
 /// Cells of a surface differ in size: the smallest one behind it says how deep another may safely be.
@@ -46,6 +54,20 @@ std::shared_ptr<const BodySurface> body_surface(const Parameters& parameters, co
   return std::make_shared<const BodySurface>(*setup.sides[side], parameters.names(boundaries), displacement);
 }
 
+struct Surfaces {
+  std::shared_ptr<const BodySurface> own, other;
+  ContactWindow range;
+};
+/// @param side of the body; the other one's is the next @param own the key that names the body
+Surfaces surfaces(const Parameters& parameters, const std::string& own, InterfaceSetup& setup, int side) {
+  Surfaces result{body_surface(parameters, own, "boundaries", setup, side), nullptr, {}};
+  const bool with_itself = setup.sides[side] == setup.sides[side + 1];
+  const bool same = with_itself && parameters.names("boundaries") == parameters.names("opposite");
+  result.other = same ? result.own : body_surface(parameters, "to", "opposite", setup, side + 1);
+  result.range = window(parameters, *result.own, with_itself);
+  return result;
+}
+
 /// Beyond the traces' own degree, for a pressure that sets in within a facet.
 constexpr int extra_degree = 2;
 
@@ -55,21 +77,13 @@ Schema ContactInterface::schema() {
   Schema s("A deforming body's surface and what lies opposite to it, on another body or on itself.");
   s.reference("from", "The body whose points look for opposite ones", "field");
   s.reference("to", "The body on which these are; may be the same", "field");
-  s.names("boundaries", "Parts of the boundary of `from`; default all")
-      .naming("boundary:from")
-      .otherwise("[]");
-  s.names("opposite", "Parts of the boundary of `to`; default all").naming("boundary:to").otherwise("[]");
-  declare_window(s);
+  declare_surfaces(s, "from");
   return s;
 }
 
 std::vector<InterfacePart> ContactInterface::build(InterfaceSetup& setup) const {
-  const auto own = body_surface(parameters_, "from", "boundaries", setup, 0);
-  const bool same =
-      setup.sides[0] == setup.sides[1] && parameters_.names("boundaries") == parameters_.names("opposite");
-  const auto other = same ? own : body_surface(parameters_, "to", "opposite", setup, 1);
-  return {{"", std::make_shared<ContactDomain>(own, other, MovingSurface{},
-                                               window(parameters_, *own, setup.sides[0] == setup.sides[1]),
+  const Surfaces both = surfaces(parameters_, "from", setup, 0);
+  return {{"", std::make_shared<ContactDomain>(both.own, both.other, MovingSurface{}, both.range,
                                                setup.degree + extra_degree)}};
 }
 
@@ -91,31 +105,20 @@ std::vector<InterfacePart> ObstacleInterface::build(InterfaceSetup& setup) const
 }
 
 Schema EmbeddedContactInterface::schema() {
-  Schema s(
-      "A deforming body's surface, cut out of another field's mesh, with what lies opposite to it on another "
-      "body "
-      "or on "
-      "itself.");
+  Schema s("A deforming body's surface, cut out of a field's mesh, and what lies opposite to it.");
   s.reference("field", "The field outside the bodies", "field");
   s.reference("body", "The body whose surface it is", "field");
   s.reference("to", "The body that it may come to touch; may be the same", "field");
-  s.names("boundaries", "Parts of the boundary of `body`; default all")
-      .naming("boundary:body")
-      .otherwise("[]");
-  s.names("opposite", "Parts of the boundary of `to`; default all").naming("boundary:to").otherwise("[]");
-  declare_window(s);
+  declare_surfaces(s, "body");
   return s;
 }
 
 std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup) const {
-  const auto own = body_surface(parameters_, "body", "boundaries", setup, 1);
-  const bool with_itself = setup.sides[1] == setup.sides[2];
-  const bool same = with_itself && parameters_.names("boundaries") == parameters_.names("opposite");
-  const auto other = same ? own : body_surface(parameters_, "to", "opposite", setup, 2);
+  const Surfaces both = surfaces(parameters_, "body", setup, 1);
   FieldCut& cut = setup.cut(0);
-  const int number = cut.add_body([own](double) { return own->now(); });
-  const auto surface = std::make_shared<EmbeddedSurface>(
-      *setup.sides[0], cut, number, own, other, window(parameters_, *own, with_itself), setup.degree);
+  const int number = cut.add_body([own = both.own](double) { return own->now(); });
+  const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,
+                                                         both.range, setup.degree);
   const auto part = [&](EmbeddedSurface::Part which) {
     return std::make_shared<EmbeddedPart>(surface, which);
   };

@@ -62,6 +62,7 @@ EmbeddedSurface::EmbeddedSurface(Field& field, const FieldCut& cut, int number,
 bool EmbeddedSurface::follow() {
   const std::vector<Key> before = keys();
   for (auto& of_part : elements_) of_part.clear();
+  for (auto& of_part : wet_points_) of_part.clear();
   wet_.clear();
   const OppositePoints opposite(*own_, other_.get(), other_->now(), window_);
   if (field_->cut())
@@ -114,6 +115,13 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
       added.trace_size = cut_->trace_size(cell);
     }
     Element& element = elements_[which][found->second.second];
+    Edge& wet_point = wet_points_[which].emplace_back();
+    wet_point = {{},
+                 field_->mesh().communicator().rank(),
+                 which,
+                 found->second.second,
+                 static_cast<int>(element.outside.weight.size())};
+    std::copy_n(&rule.position[at * dim], dim, wet_point.position.begin());
     const std::size_t wide = hit ? 2 * moves : moves;
     element.outside.weight.push_back(rule.weight[q]);
     for (std::size_t d = 0; d < dim; ++d) {
@@ -176,37 +184,30 @@ void EmbeddedSurface::add_partner(Element& element, const OppositePoints::Hit& h
 
 void EmbeddedSurface::add_closed(const OppositePoints& opposite) {
   const Communicator& communicator = field_->mesh().communicator();
-  std::vector<Edge> mine;
-  for (const Part part : {near, free}) {
-    // The nearest wet point is one of those that face the other body, where there are any.
-    if (part == free && communicator.any(!mine.empty())) break;
-    for (std::size_t e = 0; e < elements_[part].size(); ++e) {
-      const Element& element = elements_[part][e];
-      ElementSide side;
-      attach_cell(side, *field_, element.outside.cell, element.outside.part);
-      element.outside.attach(side, false);
-      side.map_geometry();
-      const std::size_t dim = dimension();
-      for (std::size_t q = 0; q < element.outside.weight.size(); ++q) {
-        Edge edge{{}, communicator.rank(), part, static_cast<int>(e), static_cast<int>(q)};
-        std::copy_n(&side.position[q * dim], dim, edge.position.begin());
-        mine.push_back(edge);
-      }
-    }
-  }
-  const std::vector<Edge> edges = communicator.gather_all(mine);
   std::vector<Wet> wet = communicator.gather_all(wet_);
   std::ranges::stable_sort(wet, {}, &Wet::facet);
+  std::vector<ClosedPoint> points;  // the same on all ranks
   auto from = wet.begin();
   for (int facet = 0; facet < own_->facet_count(); ++facet) {
     const auto to = std::find_if(from, wet.end(), [&](const Wet& w) { return w.facet != facet; });
-    add_closed_facet(facet, {from, to}, edges, opposite);
+    find_closed(facet, {from, to}, opposite, points);
     from = to;
   }
+  if (points.empty()) return;
+  // The nearest wet point is one of those that face the other body, where there are any.
+  std::vector<Edge> edges = communicator.gather_all(wet_points_[near]);
+  if (edges.empty()) edges = communicator.gather_all(wet_points_[free]);
+  if (edges.empty())
+    throw StepRefused(
+        fmt::format("no point of the surface of '{}' is in the field '{}': nothing says what "
+                    "its closed parts push against",
+                    own_->body().name(), field_->name()));
+  for (const ClosedPoint& point : points) add_closed_point(point, edges, opposite);
 }
 
-void EmbeddedSurface::add_closed_facet(int facet, const std::vector<Wet>& wet, const std::vector<Edge>& edges,
-                                       const OppositePoints& opposite) {
+/// Appends the points of a facet's closed part that have an opposite one.
+void EmbeddedSurface::find_closed(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
+                                  std::vector<ClosedPoint>& points) const {
   const double area = opposite.area(facet);
   if (dimension() == 2) {
     std::vector<std::pair<double, double>> parts;
@@ -216,8 +217,7 @@ void EmbeddedSurface::add_closed_facet(int facet, const std::vector<Wet>& wet, c
         for (int q = 0; q < rule_->count(); ++q) {
           const double share = stretch.from.share + rule_->points[q] * stretch.length();
           if (const auto hit = opposite.find(facet, &share))
-            add_closed_point(facet, *hit, stretch, area * stretch.length() * rule_->weights[q], edges,
-                             opposite);
+            points.push_back({*hit, stretch, area * stretch.length() * rule_->weights[q]});
         }
     return;
   }
@@ -227,35 +227,29 @@ void EmbeddedSurface::add_closed_facet(int facet, const std::vector<Wet>& wet, c
   for (const Wet& w : wet) left -= w.area;
   if (left <= hair * area) return;
   const bool all = wet.empty();
-  std::vector<std::pair<OppositePoints::Hit, double>> points;
+  const auto first = static_cast<std::ptrdiff_t>(points.size());
   double sum = 0;
   for (int q = 0; q < rule_->count(); ++q) {
     const auto hit = opposite.find(facet, &rule_->points[static_cast<std::size_t>(q) * 2]);
     if (!hit || (!all && hit->pair.gap >= 0)) continue;
-    points.emplace_back(*hit, area * rule_->weights[q]);
-    sum += points.back().second;
+    points.push_back({*hit, {{0}, {1}}, area * rule_->weights[q]});
+    sum += points.back().weight;
   }
   const double scale = all ? 1.0 : std::min(2.0, left / sum);
-  for (const auto& [hit, weight] : points)
-    add_closed_point(facet, hit, {{0}, {1}}, scale * weight, edges, opposite);
+  std::for_each(points.begin() + first, points.end(), [&](ClosedPoint& point) { point.weight *= scale; });
 }
 
-void EmbeddedSurface::add_closed_point(int facet, const OppositePoints::Hit& hit,
-                                       const OppositePoints::Stretch& stretch, double weight,
-                                       const std::vector<Edge>& edges, const OppositePoints& opposite) {
+void EmbeddedSurface::add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
+                                       const OppositePoints& opposite) {
   const auto dim = static_cast<std::size_t>(dimension()), moves = 2 * dim * dim;
+  const auto& [hit, stretch, weight] = point;
+  const int facet = hit.own_facet;
   const FacetPair& pair = hit.pair;
   Vector x = pair.own[0];
   for (std::size_t k = 1; k < dim; ++k) x = x + pair.on_own[k - 1] * (pair.own[k] - pair.own[0]);
-  const auto nearest = std::ranges::min_element(edges, {}, [&](const Edge& edge) {
-    const Vector way = edge.position - x;
-    return dot(way, way);
+  const auto nearest = std::min_element(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
+    return dot(a.position - x, a.position - x) < dot(b.position - x, b.position - x);
   });
-  if (nearest == edges.end())
-    throw StepRefused(
-        fmt::format("no point of the surface of '{}' is in the field '{}': nothing says what "
-                    "its closed parts push against",
-                    own_->body().name(), field_->name()));
   if (nearest->rank != field_->mesh().communicator().rank()) return;
   const Element& source = elements_[nearest->part][nearest->element];
   Element fresh;

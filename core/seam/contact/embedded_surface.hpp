@@ -59,16 +59,21 @@ class EmbeddedSurface {
     cutting::Vector position;
     int rank, part, element, point;
   };
+  struct ClosedPoint {
+    OppositePoints::Hit hit;
+    OppositePoints::Stretch stretch;  ///< that it lies in, in the plane
+    double weight;
+  };
   struct Key {
     int outside_cell, outside_part, group, other_group, own_edge_group, other_edge_group;
     friend bool operator==(const Key&, const Key&) = default;
   };
   void add_wet(int cell, int part, const OppositePoints& opposite);
   void add_closed(const OppositePoints& opposite);
-  void add_closed_facet(int facet, const std::vector<Wet>& wet, const std::vector<Edge>& edges,
+  void find_closed(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
+                   std::vector<ClosedPoint>& points) const;
+  void add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
                         const OppositePoints& opposite);
-  void add_closed_point(int facet, const OppositePoints::Hit& hit, const OppositePoints::Stretch& stretch,
-                        double weight, const std::vector<Edge>& edges, const OppositePoints& opposite);
   static void add_edge_motion(const OppositePoints::Hit& hit, const double* span,
                               const OppositePoints& opposite, std::vector<double>& slide,
                               PointMotion& motion);
@@ -85,7 +90,8 @@ class EmbeddedSurface {
   ContactWindow window_;
   const Quadrature* rule_;  ///< on closed facets
   std::array<std::vector<Element>, part_count> elements_;
-  std::vector<Wet> wet_;  ///< of this rank
+  std::vector<Wet> wet_;                         ///< of this rank
+  std::array<std::vector<Edge>, 2> wet_points_;  ///< of this rank, free and near
 };
 
 /// One of the parts as a domain of integration.

@@ -34,8 +34,8 @@ struct InterfaceRule : CutRule {
   std::vector<int> body, facet;         ///< [point]
   std::vector<double> facet_reference;  ///< [point][dimension - 1], the facet's own coordinates: vertex 0 is
                                         ///< the origin, vertices 1 and 2 the unit points
-  std::vector<double>
-      span;  ///< in the plane: [point][2], where on the facet the point's piece begins and ends
+  /// In the plane: where on the facet the point's piece begins and ends, [point][2].
+  std::vector<double> span;
 };
 
 /// The boundary of the wet part of a cell. In the plane: its outlines, counter-clockwise, holes clockwise.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "seam/base/stopwatch.hpp"
 
@@ -101,7 +102,7 @@ NewtonReport Newton::solve(const TimePoint& step) {
   frozen_ = false;
   freezes_ = 0;
   freed_ = 0;
-  const double far = 0.01 * problem_.smallest_cut_cell();
+  double far = std::numeric_limits<double>::infinity();  // m, for bodies on a frozen cut
   std::vector<double> increment;
   Size size;
   bool starts = true;  // at states without an increment that led there
@@ -157,7 +158,8 @@ NewtonReport Newton::solve(const TimePoint& step) {
       return report;
     }
     if (iteration >= free_iterations) problem_.hold_spaces();
-    if (!frozen_ && std::isfinite(far) && cycles(report.history)) {
+    if (!frozen_ && problem_.is_cut() && cycles(report.history)) {
+      far = 0.01 * problem_.smallest_cut_cell();
       freeze(at, true, report.history.size());
       problem_.assembler().assemble(at, true);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -130,7 +131,11 @@ class Problem {
   /// What is integrated where.
   using DomainTerms = std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>;
   [[nodiscard]] const std::vector<DomainTerms>& domains() const { return domains_; }
-  /// Diameter of the smallest cell that bodies may cut, m; infinite where nothing is cut. Collective.
+  /// Whether bodies cut the mesh of some field.
+  [[nodiscard]] bool is_cut() const {
+    return std::ranges::any_of(fields_, [](const FieldEntry& entry) { return entry.cut != nullptr; });
+  }
+  /// Diameter of the smallest cell of the meshes that bodies cut, m. Collective.
   [[nodiscard]] double smallest_cut_cell() const;
   /// Seconds spent in cutting meshes and in carrying states over, for the report.
   [[nodiscard]] double cut_seconds() const { return cut_seconds_; }

@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "contact_sides.hpp"
+#include "coupling_sides.hpp"
 
 #include <fmt/format.h>
 
 #include "trace_eigenvalue.hpp"
 
 namespace seam::fsci {
+
+Flow flow_of(const CouplingSides& sides) {
+  const Field& fluid = *sides.fields[0];
+  return {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0};
+}
+
+void declare_adjoint(Schema& schema) {
+  schema
+      .choice("adjoint", "Adjoint term: `skew` (xi = 1) is stable for every penalty",
+              {"skew", "symmetric", "none"})
+      .otherwise("skew");
+}
+
+double adjoint_of(const Parameters& parameters) {
+  const std::string& name = parameters.text("adjoint");
+  return name == "skew" ? 1.0 : (name == "symmetric" ? -1.0 : 0.0);
+}
 
 std::shared_ptr<const StressLaw> law_of(const CouplingSides& sides, int side) {
   static_cast<void>(sides.fields.at(side)->place("displacement"));
@@ -26,9 +43,7 @@ std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const
 void declare_stress(Schema& schema) {
   schema
       .choice("stress",
-              "Whose stress stands for that between the bodies: of `both` with harmonic weights, or that of "
-              "one, as "
-              "where the other body is held everywhere",
+              "Whose stress stands for that between the bodies: that of `both`, weighted, or of one",
               {"both", "own", "other"})
       .otherwise("both");
 }

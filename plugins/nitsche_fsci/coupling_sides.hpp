@@ -4,8 +4,15 @@
 #include "contact_kernels.hpp"
 #include "seam/interface/interface.hpp"
 
-/// What the couplings with contact have in common.
+/// What the plugin's couplings have in common.
 namespace seam::fsci {
+
+/// What a coupling needs to know of the fluid on side 0.
+Flow flow_of(const CouplingSides& sides);
+
+/// Adds the key `adjoint`, of the fluid's viscous adjoint term, and reads it: xi.
+void declare_adjoint(Schema& schema);
+double adjoint_of(const Parameters& parameters);
 
 /// The stress law of the body on a side.
 /// @throws Error when the body has none, naming the field
@@ -20,8 +27,5 @@ void declare_stress(Schema& schema);
 /// @param penalty gamma_0
 BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
                    double penalty);
-
-/// Declares the coupling "contact_in_fluid".
-void declare_contact_in_fluid(Registry& registry);
 
 }  // namespace seam::fsci
