@@ -136,6 +136,20 @@ struct NodalLoad {
   }
 };
 
+/// <du, k u> with a stiffness for each direction: an elastic support without mass.
+struct Support {
+  using Reads = Slots<Value<u>>;
+  using Tests = Slots<Value<u>>;
+  std::vector<double> stiffness;  ///< Pa/m of reference area
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Vec<dim, T> displacement = s.value(u{});
+    Vec<dim, T> push;
+    for (int i = 0; i < dim; ++i) push[i] = stiffness[i] * displacement[i];
+    r.value(u{}) += push;
+  }
+};
+
 /// <du, p n> on the current boundary: n da = cof(F) N dA.
 struct FollowerPressure {
   using Reads = Slots<Gradient<u>>;

@@ -63,7 +63,7 @@ TEST_CASE("a ray meets the side of a body that faces it, from outside and from w
     const double ahead[] = {-2, 0}, within[] = {-0.2, 0}, direction[] = {1, 0};
     CHECK_FALSE(search.find(ahead, direction, 0.5, 1));
     CHECK_FALSE(search.find(within, direction, 0.5, 3));
-    CHECK_FALSE(search.find(ahead, direction, 0.5, 3, [](int, double) { return true; }));
+    CHECK_FALSE(search.find(ahead, direction, 0.5, 3, [](int) { return true; }));
   }
 }
 

@@ -122,7 +122,7 @@ std::optional<FacetSearch::Hit> FacetSearch::find(const double* x, const double*
     if (best && (std::abs(hit->gap) > std::abs(best->gap) ||
                  (std::abs(hit->gap) == std::abs(best->gap) && hit->facet > best->facet)))
       continue;
-    if (exclude && exclude(hit->facet, hit->gap)) continue;
+    if (exclude && exclude(hit->facet)) continue;
     best = hit;
   }
   return best;

@@ -24,8 +24,8 @@ class FacetSearch {
     std::array<double, 2> on_facet;  ///< the facet's own coordinates: shares of its vertices 1 and 2
     double gap;                      ///< m, along the direction; negative behind the point
   };
-  /// True where a facet is no partner of the point that asks, if its gap is this.
-  using Exclude = std::function<bool(int facet, double gap)>;
+  /// True where a facet is no partner of the point that asks.
+  using Exclude = std::function<bool(int facet)>;
   /// Where the line through a point first meets a facet whose outside faces the direction, within 60 degrees:
   /// that with the gap of least size.
   /// @param x, direction [dimension]; the direction has length 1

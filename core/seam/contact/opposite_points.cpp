@@ -41,7 +41,8 @@ Vector OppositePoints::normal(int facet) const {
   return 1 / area(facet) * facet_normal(surface_.dimension, own_vertices(facet));
 }
 
-/// In contact with itself a thin part of a body must not take its own back for a surface that it has passed.
+/// In contact with itself a thin part of a body must not take its own back for a surface that it has passed,
+/// nor the two sides of a notch each other for surfaces that touch.
 bool OppositePoints::is_own_neighbourhood(int facet, int other_facet) const {
   if (own_->group(facet) == own_->group(other_facet)) return true;
   const std::vector<int>& first = own_->cell(own_->group(facet)).nodes[own_->place().block];
@@ -59,10 +60,9 @@ std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double*
   Vector x = pair.own[0];
   for (int k = 1; k < dim; ++k) x = x + pair.on_own[k - 1] * (pair.own[k] - pair.own[0]);
   const Vector direction = normal(facet);
-  const auto found = search_.find(x.data(), direction.data(), window_.depth, window_.reach,
-                                  [&](int other_facet, double gap) {
-                                    return is_itself_ && gap <= 0 && is_own_neighbourhood(facet, other_facet);
-                                  });
+  const auto found =
+      search_.find(x.data(), direction.data(), window_.depth, window_.reach,
+                   [&](int other_facet) { return is_itself_ && is_own_neighbourhood(facet, other_facet); });
   if (!found) return std::nullopt;
   hit.facet = found->facet;
   pair.opposite = vertices(search_.surface(), found->facet);

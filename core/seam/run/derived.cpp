@@ -108,6 +108,7 @@ double statistic(const Parameters& p, const Results& results) {
                                        bends ? "three" : "two", from, to));
   const Window window{std::span(results.time).subspan(first, count),
                       std::span(series->second).subspan(first, count)};
+  if (std::ranges::any_of(window.value, [](double v) { return std::isnan(v); })) return std::nan("");
   if (what == "maximum") return *std::max_element(window.value.begin(), window.value.end());
   if (what == "minimum") return *std::min_element(window.value.begin(), window.value.end());
   if (what == "integral") return window.integral();
@@ -131,7 +132,7 @@ void record_formulas(const Scene& scene, Results& results) {
       if (!values.empty()) known[spelled] = values.back();
     }
     try {
-      results.series[name].push_back(evaluate_constant(p.text("value"), known));
+      results.series[name].push_back(evaluate_formula(p.text("value"), known));
     } catch (const Error& error) {
       throw Error(p.where(), error.what());
     }

@@ -213,6 +213,12 @@ double evaluate_constant(const std::string& text, const std::map<std::string, do
   return finite_value(parser, text);
 }
 
+double evaluate_formula(const std::string& text, const std::map<std::string, double>& values) {
+  mu::Parser parser;
+  compile(parser, text, values, nullptr);
+  return parser.Eval();
+}
+
 bool is_reserved_in_expressions(const std::string& name) {
   static const mu::Parser plain;
   return name == "pi" ||

@@ -46,6 +46,10 @@ class Expression {
 /// @throws Error as Expression does.
 double evaluate_constant(const std::string& text, const std::map<std::string, double>& parameters);
 
+/// As evaluate_constant, of what is known by name at some time; the result may be infinite or no number, as a
+/// ratio of things that are still zero is.
+double evaluate_formula(const std::string& text, const std::map<std::string, double>& values);
+
 /// True for names that mean something of their own in expressions (x, y, z, t, pi, sin, ...): no parameter
 /// may take them.
 bool is_reserved_in_expressions(const std::string& name);
