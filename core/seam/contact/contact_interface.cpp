@@ -45,13 +45,14 @@ ContactWindow window(const Parameters& parameters, const BodySurface& surface, b
 
 std::shared_ptr<const BodySurface> body_surface(const Parameters& parameters, const std::string& key,
                                                 const std::string& boundaries, InterfaceSetup& setup,
-                                                int side) {
+                                                int side, const std::vector<Backing>& backing = {}) {
   const std::string displacement = setup.displacement(side);
   if (displacement.empty())
     throw Error(parameters.where(key),
                 fmt::format("field '{}' has no displacement, so that it has no surface that moves",
                             parameters.text(key)));
-  return std::make_shared<const BodySurface>(*setup.sides[side], parameters.names(boundaries), displacement);
+  return std::make_shared<const BodySurface>(*setup.sides[side], parameters.names(boundaries), displacement,
+                                             backing);
 }
 
 struct Surfaces {
@@ -59,8 +60,9 @@ struct Surfaces {
   ContactWindow range;
 };
 /// @param side of the body; the other one's is the next @param own the key that names the body
-Surfaces surfaces(const Parameters& parameters, const std::string& own, InterfaceSetup& setup, int side) {
-  Surfaces result{body_surface(parameters, own, "boundaries", setup, side), nullptr, {}};
+Surfaces surfaces(const Parameters& parameters, const std::string& own, InterfaceSetup& setup, int side,
+                  const std::vector<Backing>& backing = {}) {
+  Surfaces result{body_surface(parameters, own, "boundaries", setup, side, backing), nullptr, {}};
   const bool with_itself = setup.sides[side] == setup.sides[side + 1];
   const bool same = with_itself && parameters.names("boundaries") == parameters.names("opposite");
   result.other = same ? result.own : body_surface(parameters, "to", "opposite", setup, side + 1);
@@ -110,11 +112,13 @@ Schema EmbeddedContactInterface::schema() {
   s.reference("body", "The body whose surface it is", "field");
   s.reference("to", "The body that it may come to touch; may be the same", "field");
   declare_surfaces(s, "body");
+  declare_backing(s, "body");
   return s;
 }
 
 std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup) const {
-  const Surfaces both = surfaces(parameters_, "body", setup, 1);
+  const std::vector<Backing> backing = backing_of(parameters_, setup.sides[1]->mesh().dimension());
+  const Surfaces both = surfaces(parameters_, "body", setup, 1, backing);
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([own = both.own](double) { return own->now(); });
   const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,

@@ -89,6 +89,7 @@ Schema EmbeddedInterface::schema() {
   s.reference("field", "The field that lies outside the body", "field");
   s.reference("body", "The field whose mesh is the body", "field");
   s.names("boundaries", "Parts of the body's boundary; default all").naming("boundary:body").otherwise("[]");
+  declare_backing(s, "body");
   return s;
 }
 
@@ -99,7 +100,8 @@ std::vector<InterfacePart> EmbeddedInterface::build(InterfaceSetup& setup) const
                 fmt::format("field '{}' has no displacement, so that it cannot be a body in another field",
                             parameters_.text("body")));
   auto surface =
-      std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"), displacement);
+      std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"), displacement,
+                                          backing_of(parameters_, setup.sides[1]->mesh().dimension()));
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([surface](double) { return surface->now(); });
   return {{"", std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, setup.degree, surface)}};

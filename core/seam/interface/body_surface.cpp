@@ -9,8 +9,28 @@
 
 namespace seam {
 
+void declare_backing(Schema& schema, const std::string& body) {
+  Schema backing("Parts of the boundary that are not wet, and the way out of the mesh behind them.");
+  backing.names("on", "Parts of the boundary of `" + body + "`").naming("boundary:" + body);
+  backing
+      .vector("by",
+              "So far the surface is shifted there: out of the other field's mesh, however the body moves")
+      .unit("m");
+  schema.list("backing", "Where no field lies behind a part of the boundary", backing).otherwise("[]");
+}
+
+std::vector<Backing> backing_of(const Parameters& parameters, int dimension) {
+  std::vector<Backing> result;
+  for (const Parameters& p : parameters.list("backing")) {
+    if (static_cast<int>(p.vector("by").size()) != dimension)
+      throw Error(p.where("by"), fmt::format("{} components; expected {}", p.vector("by").size(), dimension));
+    result.push_back({p.names("on"), p.vector("by")});
+  }
+  return result;
+}
+
 BodySurface::BodySurface(Field& body, const std::vector<std::string>& boundaries,
-                         const std::string& displacement)
+                         const std::string& displacement, const std::vector<Backing>& backing)
     : body_(&body),
       displacement_(displacement),
       boundary_(body_boundary(body.mesh().whole(), boundaries)),
@@ -35,6 +55,13 @@ BodySurface::BodySurface(Field& body, const std::vector<std::string>& boundaries
   }
   cells_ = fetch_cells(body, cells);
   for (const int node : boundary_.node) node_.push_back(space.local_node(node));
+  for (const Backing& part : backing) {
+    const std::vector<int> nodes = body_boundary(body.mesh().whole(), part.boundaries).node;
+    for (std::size_t k = 0; k < boundary_.node.size(); ++k)
+      if (std::ranges::find(nodes, boundary_.node[k]) != nodes.end())
+        for (std::size_t d = 0; d < part.by.size(); ++d)
+          boundary_.surface.points[k * part.by.size() + d] += part.by[d];
+  }
   find_places();
 }
 

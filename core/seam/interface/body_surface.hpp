@@ -6,8 +6,21 @@
 
 #include "seam/cut/body.hpp"
 #include "seam/interface/remote_cells.hpp"
+#include "seam/scene/parameters.hpp"
+#include "seam/scene/schema.hpp"
 
 namespace seam {
+
+/// Parts of a body's boundary behind which there is nothing: its surface is shifted there, so that what it
+/// encloses takes in the space behind them.
+struct Backing {
+  std::vector<std::string> boundaries;
+  std::vector<double> by;  ///< m, [dimension]
+};
+/// Adds the key `backing`. @param body the key that names the body
+void declare_backing(Schema& schema, const std::string& body);
+/// @throws Error when a shift has not as many components as space, with its place
+std::vector<Backing> backing_of(const Parameters& parameters, int dimension);
 
 /// The surface of a deforming body as planar facets, with the cells behind them. Every rank holds all of it:
 /// surfaces are small beside volumes.
@@ -16,7 +29,8 @@ class BodySurface {
   /// Collective. @param boundaries parts of the mesh's boundary; empty for all of it
   /// @param displacement name of the unknown that displaces the mesh
   /// @throws Error when mesh and displacement differ in order, or a boundary is unknown
-  BodySurface(Field& body, const std::vector<std::string>& boundaries, const std::string& displacement);
+  BodySurface(Field& body, const std::vector<std::string>& boundaries, const std::string& displacement,
+              const std::vector<Backing>& backing = {});
 
   /// As it is deformed now.
   [[nodiscard]] Surface now() const;
