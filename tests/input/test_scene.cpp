@@ -82,6 +82,16 @@ TEST_CASE("names of boundaries are checked against the meshes") {
       check_mesh_names(scene, registry, {{"box", {{"xmin"}, {}}}}),
       Contains("fields.left.boundary[0].on: the mesh 'box' (scene.yaml:7:8) has no boundary 'x_min'") &&
           Contains("Did you mean 'xmin'?") && Contains("output.probes.pull.on"));
+  SECTION("in an object inside the one that names the field") {
+    register_coat(registry);
+    std::string text = good_text();
+    const std::string tie = "{type: tie, fields: [left, right]}";
+    text.replace(text.find(tie), tie.size(), "{type: coat, body: left, parts: [{on: top}]}");
+    const Scene coated = parse_scene_text(text, "scene.yaml", {}, host, registry);
+    CHECK_THROWS_WITH(
+        check_mesh_names(coated, registry, {{"box", {{"x_min", "x_max"}, {}}}}),
+        Contains("interfaces.seam.parts[0].on: the mesh 'box'") && Contains("no boundary 'top'"));
+  }
 }
 
 TEST_CASE("broken scenes are refused with the expected messages") {

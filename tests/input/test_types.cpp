@@ -49,7 +49,18 @@ void add(Registry& registry, const std::string& kind, const std::string& name, S
                       [](const Parameters&, const Registry&) { return std::make_unique<Thing>(); });
 }
 
+Schema coat_schema() {
+  Schema part("A part of it.");
+  part.names("on", "of the body's boundary").naming("boundary:body");
+  Schema schema("A layer on a body.");
+  schema.reference("body", "what it is on", "field");
+  schema.list("parts", "of the layer", part);
+  return schema;
+}
+
 }  // namespace
+
+void register_coat(Registry& registry) { add(registry, "interface", "coat", coat_schema()); }
 
 void register_test_types(Registry& registry) {
   add(registry, "field", "bar", bar_schema());

@@ -12,5 +12,7 @@ struct Thing {
 
 /// Registers a field "bar", materials, an interface "tie", a coupling "glue" and the linear solver "direct".
 void register_test_types(seam::Registry& registry);
+/// Registers an interface "coat", whose list `parts` names boundaries of the field that its key `body` names.
+void register_coat(seam::Registry& registry);
 
 }  // namespace seam_test

@@ -117,8 +117,7 @@ Schema EmbeddedContactInterface::schema() {
 }
 
 std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup) const {
-  const std::vector<Backing> backing = backing_of(parameters_, setup.sides[1]->mesh().dimension());
-  const Surfaces both = surfaces(parameters_, "body", setup, 1, backing);
+  const Surfaces both = surfaces(parameters_, "body", setup, 1, backing_of(parameters_));
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([own = both.own](double) { return own->now(); });
   const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,

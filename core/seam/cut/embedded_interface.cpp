@@ -99,9 +99,8 @@ std::vector<InterfacePart> EmbeddedInterface::build(InterfaceSetup& setup) const
     throw Error(parameters_.where("body"),
                 fmt::format("field '{}' has no displacement, so that it cannot be a body in another field",
                             parameters_.text("body")));
-  auto surface =
-      std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"), displacement,
-                                          backing_of(parameters_, setup.sides[1]->mesh().dimension()));
+  auto surface = std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"),
+                                                     displacement, backing_of(parameters_));
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([surface](double) { return surface->now(); });
   return {{"", std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, setup.degree, surface)}};

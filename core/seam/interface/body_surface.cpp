@@ -19,13 +19,9 @@ void declare_backing(Schema& schema, const std::string& body) {
   schema.list("backing", "Where no field lies behind a part of the boundary", backing).otherwise("[]");
 }
 
-std::vector<Backing> backing_of(const Parameters& parameters, int dimension) {
+std::vector<Backing> backing_of(const Parameters& parameters) {
   std::vector<Backing> result;
-  for (const Parameters& p : parameters.list("backing")) {
-    if (static_cast<int>(p.vector("by").size()) != dimension)
-      throw Error(p.where("by"), fmt::format("{} components; expected {}", p.vector("by").size(), dimension));
-    result.push_back({p.names("on"), p.vector("by")});
-  }
+  for (const Parameters& p : parameters.list("backing")) result.push_back({p.names("on"), p.vector("by")});
   return result;
 }
 

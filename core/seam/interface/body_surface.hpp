@@ -19,8 +19,7 @@ struct Backing {
 };
 /// Adds the key `backing`. @param body the key that names the body
 void declare_backing(Schema& schema, const std::string& body);
-/// @throws Error when a shift has not as many components as space, with its place
-std::vector<Backing> backing_of(const Parameters& parameters, int dimension);
+std::vector<Backing> backing_of(const Parameters& parameters);
 
 /// The surface of a deforming body as planar facets, with the cells behind them. Every rank holds all of it:
 /// surfaces are small beside volumes.
@@ -28,6 +27,7 @@ class BodySurface {
  public:
   /// Collective. @param boundaries parts of the mesh's boundary; empty for all of it
   /// @param displacement name of the unknown that displaces the mesh
+  /// @param backing parts that are shifted
   /// @throws Error when mesh and displacement differ in order, or a boundary is unknown
   BodySurface(Field& body, const std::vector<std::string>& boundaries, const std::string& displacement,
               const std::vector<Backing>& backing = {});

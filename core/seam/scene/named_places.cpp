@@ -9,6 +9,12 @@ namespace seam {
 
 namespace {
 
+/// What an object speaks of, and the fields that it and those around it name, by key.
+struct Around : NamedPlace {
+  std::map<std::string, std::string> fields;
+  void speak_of(const NamedPlace& other) { static_cast<NamedPlace&>(*this) = other; }
+};
+
 /// Walks values and schema side by side. Objects inside a field or next to a key `field` speak of that
 /// field's mesh.
 class Walker {
@@ -22,12 +28,13 @@ class Walker {
     }
   }
 
-  void object(const Parameters& values, const Schema& schema, const std::string& path, NamedPlace around) {
-    if (names_target(values, schema, "field", "field")) around = of_field(values.text("field"));
+  void object(const Parameters& values, const Schema& schema, const std::string& path, Around around) {
+    for (const Parameter& p : schema.parameters())
+      if (names_target(values, schema, p.name, "field")) around.fields[p.name] = values.text(p.name);
+    if (names_target(values, schema, "field", "field")) around.speak_of(of_field(values.text("field")));
     if (names_target(values, schema, "mesh", "mesh")) around.mesh = values.text("mesh");
     for (const Parameter& p : schema.parameters()) {
-      if (values.has(p.name))
-        parameter(values, schema, p, path.empty() ? p.name : path + "." + p.name, around);
+      if (values.has(p.name)) parameter(values, p, path.empty() ? p.name : path + "." + p.name, around);
     }
   }
 
@@ -49,14 +56,14 @@ class Walker {
     return place;
   }
 
-  void add(const Parameters& values, const Schema& schema, const Parameter& p, const std::string& name,
-           const std::string& path, const NamedPlace& around) {
+  void add(const Parameters& values, const Parameter& p, const std::string& name, const std::string& path,
+           const Around& around) {
     NamedPlace place = around;
     const std::size_t colon = p.target.find(':');
     place.target = p.target.substr(0, colon);
     if (colon != std::string::npos) {
-      const std::string key = p.target.substr(colon + 1);
-      place = names_target(values, schema, key, "field") ? of_field(values.text(key)) : NamedPlace{};
+      const auto field = around.fields.find(p.target.substr(colon + 1));
+      place = field != around.fields.end() ? of_field(field->second) : NamedPlace{};
       place.target = p.target.substr(0, colon);
     }
     place.name = name;
@@ -66,19 +73,19 @@ class Walker {
   }
 
   void typed(const Parameters& values, const std::string& kind, const std::string& path,
-             const NamedPlace& around) {
+             const Around& around) {
     if (const Registry::Entry* entry = registry_.find(kind, values.type()))
       object(values, entry->schema, path, around);
   }
 
-  void parameter(const Parameters& values, const Schema& schema, const Parameter& p, const std::string& path,
-                 const NamedPlace& around) {
+  void parameter(const Parameters& values, const Parameter& p, const std::string& path,
+                 const Around& around) {
     switch (p.kind) {
       case ValueKind::reference:
-        add(values, schema, p, values.text(p.name), path, around);
+        add(values, p, values.text(p.name), path, around);
         break;
       case ValueKind::names:
-        for (const std::string& name : values.names(p.name)) add(values, schema, p, name, path, around);
+        for (const std::string& name : values.names(p.name)) add(values, p, name, path, around);
         break;
       case ValueKind::object:
         object(values.object(p.name), *p.sub, path, around);
@@ -100,7 +107,8 @@ class Walker {
       case ValueKind::typed_map:
         for (const auto& [name, entry] : values.map(p.name)) {
           const std::string place = path + "." + name;
-          const NamedPlace inside = path == "fields" ? of_field(name) : around;
+          Around inside = around;
+          if (path == "fields") inside.speak_of(of_field(name));
           p.kind == ValueKind::map ? object(entry, *p.sub, place, inside)
                                    : typed(entry, p.target, place, inside);
         }
