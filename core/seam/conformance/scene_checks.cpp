@@ -26,7 +26,8 @@ bool same_bits(const Problem::Snapshot& a, const Problem::Snapshot& b) {
   using State = Problem::BlockSnapshot;
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const State& x, const State& y) {
     return same_bits(x.now.value, y.now.value) && same_bits(x.now.rate, y.now.rate) &&
-           same_bits(x.now.second_rate, y.now.second_rate) && x.known == y.known;
+           same_bits(x.now.second_rate, y.now.second_rate) && same_bits(x.now.mean_rate, y.now.mean_rate) &&
+           same_bits(x.now.mean_second_rate, y.now.mean_second_rate) && x.known == y.known;
   });
 }
 

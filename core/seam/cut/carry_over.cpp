@@ -76,17 +76,17 @@ bool move_states(Block& block, int node, const std::vector<Source>& source, cons
   bool same = true;
   for (int k = 0; k < sets; ++k) same = same && (!used[k] || (source[k].set == k && !source[k].shared));
   if (same) return false;
-  for (auto* values : {&block.now.value, &block.now.rate, &block.now.second_rate, &block.old.value,
-                       &block.old.rate, &block.old.second_rate})
-    for (int c = 0; c < block.size; ++c) {
-      std::vector<double> former(sets);
-      const auto at = [&](int set) -> double& {
-        return (*values)[static_cast<std::size_t>(space.in_set(node, set)) * block.size + c];
-      };
-      for (int k = 0; k < sets; ++k) former[k] = at(k);
-      for (int k = 0; k < sets; ++k)
-        if (source[k].set != none) at(k) = former[source[k].set];
-    }
+  for (NodalState* state : {&block.now, &block.old})
+    for (std::vector<double>* values : state->levels())
+      for (int c = 0; c < block.size; ++c) {
+        std::vector<double> former(sets);
+        const auto at = [&](int set) -> double& {
+          return (*values)[static_cast<std::size_t>(space.in_set(node, set)) * block.size + c];
+        };
+        for (int k = 0; k < sets; ++k) former[k] = at(k);
+        for (int k = 0; k < sets; ++k)
+          if (source[k].set != none) at(k) = former[source[k].set];
+      }
   std::vector<char> known(sets);
   for (int k = 0; k < sets; ++k) known[k] = block.known[space.in_set(node, k)];
   for (int k = 0; k < sets; ++k) {
@@ -132,9 +132,8 @@ void carry_over(Field& field, const PartLayout& before, const PartLayout& now, c
       changed = move_states(block, node, elect(votes, space.sets()), used) || changed;
     }
     if (!field.mesh().communicator().any(changed)) continue;
-    for (auto* values : {&block.now.value, &block.now.rate, &block.now.second_rate, &block.old.value,
-                         &block.old.rate, &block.old.second_rate})
-      space.halo().update(*values, block.size);
+    for (NodalState* state : {&block.now, &block.old})
+      for (std::vector<double>* values : state->levels()) space.halo().update(*values, block.size);
     space.halo().update(block.known, 1);
   }
 }

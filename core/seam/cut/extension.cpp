@@ -36,8 +36,9 @@ struct DerivativeJumps {
 
 /// The states to be extended: what the time scheme reads of a step's start and its prediction.
 std::vector<std::vector<double>*> levels(Block& block) {
-  return {&block.now.value, &block.now.rate, &block.now.second_rate,
-          &block.old.value, &block.old.rate, &block.old.second_rate};
+  std::vector<std::vector<double>*> all = block.now.levels();
+  for (std::vector<double>* level : block.old.levels()) all.push_back(level);
+  return all;
 }
 
 struct Entry {

@@ -45,7 +45,8 @@ bool FieldCut::update(double time) {
     held_.clear();
     field_->keep_cut_faces(false);
   }
-  if (surfaces == surfaces_ && (is_first_cut_ || !decides) && states_match()) return false;
+  if (surfaces == surfaces_ && (decides ? is_first_cut_ && !is_filling_ : true) && states_match())
+    return false;
   mesh_.cut(surfaces);
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
@@ -129,6 +130,19 @@ void FieldCut::accept_states(bool at_start) {
   }
 }
 
+bool FieldCut::has_state(int cell) const {
+  for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) {
+    const Block& block = field_->blocks()[b];
+    for (int p = 0; p < field_->parts(cell) && !block.given; ++p) {
+      const int* nodes = field_->cell_nodes(b, cell, p);
+      if (std::any_of(nodes, nodes + block.space->nodes_per_cell(),
+                      [&](int n) { return block.known[n] != 0; }))
+        return true;
+    }
+  }
+  return false;
+}
+
 double FieldCut::trace_size(int cell) const {
   constexpr double least_area = 0.25;  // of a cell's face
   const double volume = mesh_.cell_volume(cell), dim = field_->mesh().dimension();
@@ -155,19 +169,36 @@ std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
   return open;
 }
 
-/// The cells to be dropped, and for later cuts what becomes of all others.
+/// How many owned cells of each part the last decision, if any, made this.
+std::vector<double> FieldCut::count(Decision decision, const WetParts& parts) const {
+  std::vector<double> cells(parts.volume.size(), 0.0);
+  for (int c = 0; c < field_->mesh().owned_cells(); ++c)
+    if (!decision_.empty() && parts.part[c] >= 0 && decision_[c] == decision) ++cells[parts.part[c]];
+  field_->mesh().communicator().sum(cells);
+  return cells;
+}
+
+/// The cells to be dropped, and for later cuts what becomes of all others. There is no state that a dropped
+/// part could start from: however much it grows it stays out until it joins a kept one, from which it is then
+/// filled, one layer of cells a step.
 std::vector<int> FieldCut::decide() {
   const WetParts parts = mesh_.find_parts();
   const std::vector<char> open = open_parts(parts);
+  const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
+  bool waits = false;
   decision_.assign(field_->mesh().cells(), Decision::body);
   for (int c = 0; c < field_->mesh().cells(); ++c) {
     const int part = parts.part[c];
     if (part < 0) continue;
-    const bool is_small = parts.cells[part] < smallest_kept && !open[part];
-    decision_[c] = is_small ? Decision::dropped : Decision::kept;
-    if (is_small) cells.push_back(c);
+    const bool is_large = parts.cells[part] >= smallest_kept || open[part];
+    const bool is_reached = dropped[part] == 0 || (kept[part] > 0 && has_state(c));
+    decision_[c] = is_large && is_reached ? Decision::kept : Decision::dropped;
+    if (decision_[c] == Decision::kept) continue;
+    cells.push_back(c);
+    waits = waits || (is_large && kept[part] > 0);
   }
+  is_filling_ = field_->mesh().communicator().any(waits);
   return cells;
 }
 
@@ -176,14 +207,7 @@ std::vector<int> FieldCut::decide() {
 std::vector<int> FieldCut::follow_decision() const {
   const WetParts parts = mesh_.find_parts();
   const std::vector<char> open = open_parts(parts);
-  std::vector<double> kept(parts.volume.size(), 0.0), dropped(parts.volume.size(), 0.0);
-  for (int c = 0; c < field_->mesh().owned_cells(); ++c) {
-    if (parts.part[c] < 0) continue;
-    if (decision_[c] == Decision::kept) ++kept[parts.part[c]];
-    if (decision_[c] == Decision::dropped) ++dropped[parts.part[c]];
-  }
-  field_->mesh().communicator().sum(kept);
-  field_->mesh().communicator().sum(dropped);
+  const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
   for (int c = 0; c < field_->mesh().cells(); ++c) {
     const int part = parts.part[c];

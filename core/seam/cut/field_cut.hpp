@@ -22,7 +22,8 @@ namespace seam {
 /// Connected parts of less than two cells' volume are no part of the field: neither could the mesh resolve
 /// what goes on in them, nor would a body that closes them let what is incompressible go. Those that reach
 /// an open boundary stay. The first cut of a step decides; whatever it keeps stays for the step, and what it
-/// drops stays out, also where it creeps into cells that were body.
+/// drops stays out, also where it creeps into cells that were body. What was dropped stays out until it
+/// joins another part, however much it grows.
 class FieldCut {
  public:
   explicit FieldCut(Field& field);
@@ -71,6 +72,9 @@ class FieldCut {
   void check_motion(const PartLayout& before) const;
   void accept_states(bool at_start);
   [[nodiscard]] std::vector<char> open_parts(const WetParts& parts) const;
+  [[nodiscard]] std::vector<double> count(Decision decision, const WetParts& parts) const;
+  /// Whether any node of a local cell has one, in any of its parts.
+  [[nodiscard]] bool has_state(int cell) const;
   [[nodiscard]] std::vector<int> decide();
   [[nodiscard]] std::vector<int> follow_decision() const;
   Field* field_;
@@ -82,6 +86,7 @@ class FieldCut {
   std::vector<Decision> decision_;  ///< [local cell]
   bool decided_ = false;            ///< in this step
   bool is_first_cut_ = false;       ///< the present cut is the one that decided
+  bool is_filling_ = false;         ///< cells of kept parts wait for a state
   double time_ = 0;                 ///< of the last update
   std::vector<char> held_;          ///< [local cell]; empty when none is
   double dropped_volume_ = 0;

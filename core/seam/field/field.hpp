@@ -30,10 +30,21 @@ struct Unknown {
 /// them.
 struct NodalState {
   std::vector<double> value, rate, second_rate;
+  /// Of value and rate over the step that led here; empty unless the time scheme carries them on.
+  std::vector<double> mean_rate, mean_second_rate;
   void resize(std::size_t n) {
     value.resize(n);
     rate.resize(n);
     second_rate.resize(n);
+  }
+  void keep_mean_rates() {
+    mean_rate.resize(value.size());
+    mean_second_rate.resize(value.size());
+  }
+  /// All that is kept, for what treats them alike.
+  [[nodiscard]] std::vector<std::vector<double>*> levels() {
+    if (mean_rate.empty()) return {&value, &rate, &second_rate};
+    return {&value, &rate, &second_rate, &mean_rate, &mean_second_rate};
   }
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <stdexcept>
 
@@ -13,15 +14,18 @@ void declare_backing(Schema& schema, const std::string& body) {
   Schema backing("Parts of the boundary that are not wet, and the way out of the mesh behind them.");
   backing.names("on", "Parts of the boundary of `" + body + "`").naming("boundary:" + body);
   backing
-      .vector("by",
-              "So far the surface is shifted there: out of the other field's mesh, however the body moves")
+      .vector_expression(
+          "by",
+          "So far the surface is shifted there, as a function of the place in the body's mesh: out "
+          "of the other field's mesh, however the body moves")
       .unit("m");
   schema.list("backing", "Where no field lies behind a part of the boundary", backing).otherwise("[]");
 }
 
 std::vector<Backing> backing_of(const Parameters& parameters) {
   std::vector<Backing> result;
-  for (const Parameters& p : parameters.list("backing")) result.push_back({p.names("on"), p.vector("by")});
+  for (const Parameters& p : parameters.list("backing"))
+    result.push_back({p.names("on"), p.vector_expression("by")});
   return result;
 }
 
@@ -54,9 +58,13 @@ BodySurface::BodySurface(Field& body, const std::vector<std::string>& boundaries
   for (const Backing& part : backing) {
     const std::vector<int> nodes = body_boundary(body.mesh().whole(), part.boundaries).node;
     for (std::size_t k = 0; k < boundary_.node.size(); ++k)
-      if (std::ranges::find(nodes, boundary_.node[k]) != nodes.end())
-        for (std::size_t d = 0; d < part.by.size(); ++d)
-          boundary_.surface.points[k * part.by.size() + d] += part.by[d];
+      if (std::ranges::find(nodes, boundary_.node[k]) != nodes.end()) {
+        const int dim = boundary_.surface.dimension;
+        double* x = &boundary_.surface.points[k * dim];
+        std::array<double, 3> by{};
+        for (int d = 0; d < dim; ++d) by[d] = part.by[d](x, dim, 0);
+        for (int d = 0; d < dim; ++d) x[d] += by[d];
+      }
   }
   find_places();
 }

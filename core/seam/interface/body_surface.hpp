@@ -15,7 +15,7 @@ namespace seam {
 /// encloses takes in the space behind them.
 struct Backing {
   std::vector<std::string> boundaries;
-  std::vector<double> by;  ///< m, [dimension]
+  std::vector<Expression> by;  ///< m, [dimension], of the place in the mesh
 };
 /// Adds the key `backing`. @param body the key that names the body
 void declare_backing(Schema& schema, const std::string& body);

@@ -22,8 +22,12 @@ std::string block_name(const FieldEntry& entry, std::size_t b) {
   return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());
 }
 
-const std::vector<double>* level(const Block& block, int l) {
-  return l == 0 ? &block.now.value : l == 1 ? &block.now.rate : &block.now.second_rate;
+nlohmann::json describe(const FieldEntry& entry, std::size_t b) {
+  Block& block = entry.field->blocks()[b];
+  return {{"name", block_name(entry, b)},
+          {"nodes", block.space->global_bound()},
+          {"size", block.size},
+          {"levels", block.now.levels().size()}};
 }
 
 /// Values of all nodes of a block by global number, on rank 0: [global node][component].
@@ -113,11 +117,10 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   std::vector<double> payload;
   for (const FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
-      const Block& block = entry.field->blocks()[b];
-      header["blocks"].push_back(
-          {{"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}});
-      for (int l = 0; l < 3; ++l) {
-        const auto values = collect(block, *level(block, l));
+      Block& block = entry.field->blocks()[b];
+      header["blocks"].push_back(describe(entry, b));
+      for (const std::vector<double>* level : block.now.levels()) {
+        const auto values = collect(block, *level);
         payload.insert(payload.end(), values.begin(), values.end());
       }
     }
@@ -146,19 +149,20 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   for (FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
       Block& block = entry.field->blocks()[b];
-      const nlohmann::json expected = {
-          {"name", block_name(entry, b)}, {"nodes", block.space->global_bound()}, {"size", block.size}};
+      const nlohmann::json expected = describe(entry, b);
       if (which >= header["blocks"].size() || header["blocks"][which] != expected)
         throw Error(fmt::format("the restart point '{}' was written by another scene: it does not hold {}",
                                 file.string(), expected.dump()));
       const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
-      if (at + 3 * size > count)
+      const std::vector<std::vector<double>*> levels = block.now.levels();
+      if (at + levels.size() * size > count)
         throw Error(fmt::format("the restart point '{}' is too short", file.string()));
-      std::vector<double>* levels[3] = {&block.now.value, &block.now.rate, &block.now.second_rate};
-      for (int l = 0; l < 3; ++l, at += size)
+      for (std::vector<double>* level : levels) {
         for (int n = 0; n < block.space->nodes(); ++n)
           std::copy_n(payload + at + static_cast<std::size_t>(block.space->global_node(n)) * block.size,
-                      block.size, levels[l]->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
+                      block.size, level->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
+        at += size;
+      }
       block.old = block.now;
       block.known.assign(block.known.size(), 1);
       entry.field->set_layout(nullptr);

@@ -162,6 +162,7 @@ void Simulation::start(const RunOptions& options) {
   for (const std::string& warning : damaged)
     if (communicator_.rank() == 0) fmt::print(stderr, "warning: {}; an older one is used\n", warning);
   const bool resumed = !point.empty();
+  if (stepper_.two_steps()) problem_.keep_mean_rates();
   if (resumed) {
     state_ = read_restart(point, problem_);
     problem_.update_spaces(time_point(state_.time, 0, stepper_.theta()));
@@ -236,11 +237,20 @@ void Simulation::record_failure(const std::string& reason) {
   save_restart();
 }
 
+TimePoint Simulation::step_to(double until) const {
+  const double step = stepper_.is_static() ? 0 : until - state_.time;
+  if (stepper_.two_steps()) {
+    const std::vector<double>& times = state_.results.time;
+    return two_step_point(until, step, times.size() > 1 ? times.back() - times[times.size() - 2] : 0);
+  }
+  const double theta = state_.step_number == 0 && problem_.constrains_rates() ? 1 : stepper_.theta();
+  return time_point(until, step, theta);
+}
+
 /// One step to the time `until`; leaves everything as it was when it fails.
 bool Simulation::try_step(double until) {
   const Problem::Snapshot before = problem_.snapshot();
-  const double theta = state_.step_number == 0 && problem_.constrains_rates() ? 1 : stepper_.theta();
-  const TimePoint at = time_point(until, stepper_.is_static() ? 0 : until - state_.time, theta);
+  const TimePoint at = step_to(until);
   problem_.begin_step(at);
   try {
     reports_.push_back(newton_->solve(at));

@@ -67,6 +67,7 @@ class Simulation {
   void start(const RunOptions& options);
   void open_outputs(double resume_time);
   bool try_step(double until);
+  [[nodiscard]] TimePoint step_to(double until) const;
   [[nodiscard]] double time_error(const TimePoint& at) const;
   void record(const TimePoint& at);
   void write_fields(const TimePoint& at);

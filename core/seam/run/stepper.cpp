@@ -31,6 +31,9 @@ Stepper::Stepper(const Scene& scene) {
   const Parameters& p = scene.root.object("time");
   static_ = p.boolean("static");
   theta_ = p.number("theta");
+  two_steps_ = p.text("scheme") == "bdf2";
+  if (two_steps_ && theta_ != 1)
+    throw Error(p.where("theta"), "BDF2 has no theta; leave it out, or take `scheme: one_step_theta`");
   start_ = p.number("start");
   end_ = p.number("end");
   if (end_ <= start_)

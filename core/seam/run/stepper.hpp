@@ -18,6 +18,8 @@ class Stepper {
   [[nodiscard]] bool is_static() const { return static_; }
   [[nodiscard]] bool adaptive() const { return adaptive_; }
   [[nodiscard]] double theta() const { return theta_; }
+  /// True for BDF2; then theta is 1.
+  [[nodiscard]] bool two_steps() const { return two_steps_; }
   [[nodiscard]] double start() const { return start_; }
   [[nodiscard]] double end() const { return end_; }
   /// True when nothing is left to do at this time.
@@ -41,7 +43,7 @@ class Stepper {
  private:
   void read_steps(const Parameters& step);
   [[nodiscard]] double to_grid(double time) const;
-  bool static_ = true, adaptive_ = false, depends_on_time_ = false;
+  bool static_ = true, adaptive_ = false, depends_on_time_ = false, two_steps_ = false;
   double theta_ = 1, start_ = 0, end_ = 1;
   double initial_ = 1, minimum_ = 1e-6, maximum_ = 1, tolerance_ = 1e-3;
   std::vector<double> kinks_{1.0};  ///< ascending, the end included

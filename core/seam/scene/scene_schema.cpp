@@ -33,6 +33,13 @@ Schema time_schema() {
 
   Schema schema("The time span and how it is stepped through.");
   schema.boolean("static", "leave out all rates: the time is the parameter of the load").otherwise("false");
+  schema
+      .choice(
+          "scheme",
+          "bdf2, the backward difference formula of second order over two steps, damps what the steps do not "
+          "resolve and little else",
+          {"one_step_theta", "bdf2"})
+      .otherwise("one_step_theta");
   schema.number("theta", "of the one-step-theta scheme: 1 implicit Euler, 0.5 trapezoidal")
       .at_least(0.5)
       .at_most(1)

@@ -28,6 +28,19 @@ std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& bu
   return std::make_shared<Mesh>(shape.name(), data, shape.communicator());
 }
 
+/// Rates of a level of the unknowns that have one of this order.
+/// @param mean of the step, where it is kept
+void update_rate(const TimePoint& at, const Block& block, int order, const std::vector<double>& now,
+                 const std::vector<double>& old, const std::vector<double>& carried,
+                 std::vector<double>& rate, std::vector<double>& mean) {
+  const double keep = (1 - at.theta) / at.theta;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (block.time_order[i % block.size] < order) continue;
+    rate[i] = at.rate_factor * (now[i] - old[i]) - keep * carried[i];
+    if (!mean.empty()) mean[i] = (now[i] - old[i]) / at.step;
+  }
+}
+
 }  // namespace
 
 Field& Problem::add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
@@ -238,18 +251,15 @@ void Problem::begin_step(const TimePoint& at) {
 }
 
 void Problem::update_rates(const TimePoint& at) {
-  const double keep = (1 - at.theta) / at.theta;
+  if (at.step == 0) return;
   for (FieldEntry& entry : fields_)
-    for (Block& block : entry.field->blocks())
-      for (std::size_t i = 0; i < block.now.value.size(); ++i) {
-        const int order = block.time_order[i % block.size];
-        if (order == 0 || at.step == 0) continue;
-        block.now.rate[i] =
-            at.rate_factor * (block.now.value[i] - block.old.value[i]) - keep * block.old.rate[i];
-        if (order == 2)
-          block.now.second_rate[i] =
-              at.rate_factor * (block.now.rate[i] - block.old.rate[i]) - keep * block.old.second_rate[i];
-      }
+    for (Block& block : entry.field->blocks()) {
+      NodalState &now = block.now, &old = block.old;
+      const auto& carried = at.two_steps ? old.mean_rate : old.rate;
+      update_rate(at, block, 1, now.value, old.value, carried, now.rate, now.mean_rate);
+      const auto& second_carried = at.two_steps ? old.mean_second_rate : old.second_rate;
+      update_rate(at, block, 2, now.rate, old.rate, second_carried, now.second_rate, now.mean_second_rate);
+    }
 }
 
 SpaceChange Problem::update_cuts(const TimePoint& at) {
@@ -284,6 +294,14 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   return change;
 }
 
+void Problem::keep_mean_rates() {
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks()) {
+      block.now.keep_mean_rates();
+      block.old.keep_mean_rates();
+    }
+}
+
 void Problem::hold_spaces() {
   for (FieldEntry& entry : fields_)
     if (entry.cut) entry.cut->hold();
@@ -307,6 +325,13 @@ void Problem::restore(const Snapshot& states) {
       if (entry.field->sets() > 1) block.old = states[s].old;
       entry.field->set_layout(states[s++].layout);
     }
+}
+
+TimePoint two_step_point(double time, double step, double previous) {
+  const double ratio = previous > 0 ? step / previous : 0;
+  TimePoint at = time_point(time, step, (1 + ratio) / (1 + 2 * ratio));
+  at.two_steps = true;
+  return at;
 }
 
 TimePoint time_point(double time, double step, double theta) {

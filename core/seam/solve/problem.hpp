@@ -160,6 +160,8 @@ class Problem {
   void add_initial_rates(const std::vector<double>& increment);
   /// Makes the present state the old one, predicts, and sets the prescribed values at the end of the step.
   void begin_step(const TimePoint& at);
+  /// What steps with TimePoint::two_steps need; before the first step.
+  void keep_mean_rates();
   /// Lets rates follow the values as the time scheme says.
   void update_rates(const TimePoint& at);
   /// Cuts meshes anew, runs the space updates and rebuilds where needed. Collective.
@@ -197,5 +199,8 @@ class Problem {
 
 /// The one-step-theta scheme at the end of a step; step 0 means a static problem.
 TimePoint time_point(double time, double step, double theta);
+/// The backward difference formula of second order (BDF2) at the end of a step.
+/// @param previous length of the step before; 0 when there is none: then it is implicit Euler
+TimePoint two_step_point(double time, double step, double previous);
 
 }  // namespace seam
