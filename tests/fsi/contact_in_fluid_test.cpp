@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Bodies that come to touch inside a fluid, step by step again: on other numbers of ranks, from a restart
 // point, and after steps that failed.
+#include <algorithm>
 #include <cli/run_command.hpp>
 
 #include "run/series.hpp"
@@ -39,4 +40,24 @@ TEST_CASE("contact in a fluid is the same on 1, 2 and 3 ranks and after a restar
   REQUIRE(seam(run(folder, "one", replay + "--stop-after 15")).code == 0);
   REQUIRE(seam(run(folder, "one", replay + "--resume")).code == 0);
   CHECK(first == folder.read("one/series.csv"));
+}
+
+TEST_CASE("runs that choose their own steps touch at the same time on 1 and 2 ranks", "[study]") {
+  const Folder folder;
+  std::vector<double> onset;
+  for (const std::string before : {"", "mpirun --oversubscribe -np 2"}) {
+    const Result result =
+        seam("run " SEAM_SOURCE_DIR
+             "/configs/contact/falling_stamp.yaml --quiet --no-picture --set output.fields=false "
+             "--set parameters.n=8 --set parameters.m=10 --set time.end=400 --folder " +
+                 folder.path.string(),
+             before);
+    INFO(result.output);
+    const std::string series = folder.read("series.csv");
+    const std::vector<double> time = column(series, "time"), area = column(series, "stamp.contact_area");
+    const auto first = std::find_if(area.begin(), area.end(), [](double a) { return a > 0; });
+    REQUIRE(first != area.end());
+    onset.push_back(time[first - area.begin()]);
+  }
+  CHECK(onset[1] == Approx(onset[0]).epsilon(0.01));
 }

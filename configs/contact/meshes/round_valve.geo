@@ -1,4 +1,4 @@
-// Half (z >= 0) of a tube along x with two leaflets that lean towards -x, with round free edges that nearly meet.
+// Half (z <= 0) of a tube along x with two leaflets that lean towards -x, with round free edges that nearly meet.
 SetFactory("OpenCASCADE");
 DefineConstant[
   h = 0.008,         // size of the cells
@@ -38,7 +38,7 @@ For k In {0:1}
   Curve Loop(outline) = {l:l + 4};
   profile = news;
   Plane Surface(profile) = {outline};
-  out() = Extrude {0, 0, 2*inner} { Surface{profile}; };
+  out() = Extrude {0, 0, -2*inner} { Surface{profile}; };
   plate(k) = out(1);
 EndFor
 outside = newv;
@@ -52,15 +52,15 @@ within = newv;
 Cylinder(within) = {0, 0, 0, long, 0, 0, inner + 0.3*wall};
 plates() = BooleanIntersection{ Volume{plate()}; Delete; }{ Volume{within}; Delete; };
 whole() = BooleanUnion{ Volume{shell}; Delete; }{ Volume{plates()}; Delete; };
-quarter = newv;
-Box(quarter) = {-long, -2*inner, 0, 3*long, 4*inner, 2*inner};
-valve() = BooleanIntersection{ Volume{whole()}; Delete; }{ Volume{quarter}; Delete; };
+half_space = newv;
+Box(half_space) = {-long, -2*inner, -2*inner, 3*long, 4*inner, 2*inner};
+valve() = BooleanIntersection{ Volume{whole()}; Delete; }{ Volume{half_space}; Delete; };
 e = 1e-5;
 symmetry() = Surface In BoundingBox{-e, -2*inner, -e, long + e, 2*inner, e};
-ends() = Surface In BoundingBox{-e, -2*inner, -e, e, 2*inner, 2*inner};
-ends() += Surface In BoundingBox{long - e, -2*inner, -e, long + e, 2*inner, 2*inner};
-outer() = Surface In BoundingBox{-e, -2*inner, -e, long + e, 2*inner, 2*inner};
-outer() -= {symmetry(), ends(), Surface In BoundingBox{-e, -inner - wall/2, -e, long + e, inner + wall/2, inner + wall/2}};
+ends() = Surface In BoundingBox{-e, -2*inner, -2*inner, e, 2*inner, e};
+ends() += Surface In BoundingBox{long - e, -2*inner, -2*inner, long + e, 2*inner, e};
+outer() = Surface In BoundingBox{-e, -2*inner, -2*inner, long + e, 2*inner, e};
+outer() -= {symmetry(), ends(), Surface In BoundingBox{-e, -inner - wall/2, -inner - wall/2, long + e, inner + wall/2, e}};
 Physical Surface("symmetry") = symmetry();
 Physical Surface("ends") = ends();
 Physical Surface("outer") = outer();

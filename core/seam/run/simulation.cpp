@@ -185,6 +185,12 @@ void Simulation::start(const RunOptions& options) {
 void Simulation::open_outputs(double resume_time) {
   const Parameters& output = scene_.root.object("output");
   if (output.boolean("fields")) fields_ = std::make_unique<FieldOutput>(problem_, folder_, resume_time);
+  if (output.boolean("interfaces")) {
+    points_ = std::make_unique<InterfaceOutput>(problem_, folder_);
+    if (!points_->has_interfaces())
+      throw Error(output.where("interfaces"),
+                  "no coupling measures anything on its interface, so that there is nothing to write");
+  }
   if (!output.boolean("cut")) return;
   cut_ = std::make_unique<CutOutput>(problem_, folder_, resume_time);
   if (!cut_->has_fields())
@@ -323,6 +329,7 @@ void Simulation::write_results() {
 void Simulation::write_fields(const TimePoint& at) {
   if (fields_) fields_->write(state_.step_number, at);
   if (cut_) cut_->write(state_.step_number, at);
+  if (points_) points_->write(state_.step_number, at);
   last_fields_ = state_.step_number;
 }
 

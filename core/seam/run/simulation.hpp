@@ -13,6 +13,7 @@
 #include "seam/run/checks.hpp"
 #include "seam/run/cut_output.hpp"
 #include "seam/run/field_output.hpp"
+#include "seam/run/interface_output.hpp"
 #include "seam/run/probes.hpp"
 #include "seam/run/restart.hpp"
 #include "seam/run/stepper.hpp"
@@ -90,6 +91,7 @@ class Simulation {
   std::vector<Probe> probes_;
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<CutOutput> cut_;
+  std::unique_ptr<InterfaceOutput> points_;
   std::filesystem::path folder_;
   std::vector<NewtonReport> reports_;
   Stopwatch run_watch_, series_watch_;

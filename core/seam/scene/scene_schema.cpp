@@ -163,6 +163,10 @@ Schema output_schema() {
   schema.boolean("fields", "write the fields as VTU, with a PVD file for the time series").otherwise("true");
   schema.boolean("cut", "write the cut cells, interface points and ghost faces of fields that bodies cut")
       .otherwise("false");
+  schema
+      .boolean("interfaces",
+               "write what couplings measure at each point of their interfaces, as tractions, in CSV tables")
+      .otherwise("false");
   schema.object("picture", "a picture of the last state", picture_schema()).optional();
   schema.map("probes", "numbers recorded at every step, as CSV", probe_schema()).otherwise("{}");
   schema.value_map("formulas", "numbers computed from probes at every step", formula_schema())

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+
+/// Writes what couplings measure point by point, as `interfaces/INTERFACE-STEP.csv`. Columns are the time;
+/// where the trace of the first side is taken, m (of a closed point of a body in a fluid: the nearest wet
+/// one); the place in the mesh of the second side, `body_x`, `body_y`, `body_z`, m; the point's weight,
+/// m^(d-1); and one per measure and component. A measure has no value (nan) at points of a part of the
+/// interface that does not count for it.
+class InterfaceOutput {
+ public:
+  InterfaceOutput(const Problem& problem, const std::filesystem::path& folder);
+  /// True when some coupling measures something.
+  [[nodiscard]] bool has_interfaces() const { return !interfaces_.empty(); }
+  /// Collective.
+  void write(long step_number, const TimePoint& at) const;
+
+ private:
+  using Domain = std::shared_ptr<const IntegrationDomain>;
+  struct Column {
+    std::string name;
+    std::map<Domain, std::vector<BoundTerm>> quantities;  ///< their sum
+    int components = 1;
+  };
+  struct Interface {
+    int dimension = 2;
+    std::vector<Domain> domains;
+    std::vector<Column> columns;
+  };
+  [[nodiscard]] static std::vector<double> rows(const Interface& interface, const TimePoint& at);
+  Communicator communicator_;
+  std::filesystem::path folder_;
+  std::map<std::string, Interface> interfaces_;
+};
+
+}  // namespace seam
