@@ -19,7 +19,8 @@ TimePoint step_from(const Stepper& stepper, double time, double part = 1) {
 }
 
 bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
 bool same_bits(const Problem::Snapshot& a, const Problem::Snapshot& b) {
