@@ -5,13 +5,7 @@
 import argparse
 import csv
 
-import matplotlib
-
-matplotlib.use("Agg")  # no screen
-import matplotlib.pyplot as plt  # noqa: E402
-
-# Distinguishable with the common colour vision deficiencies (Okabe and Ito).
-COLOURS = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"]
+from plot_study import COLOURS, plt
 
 
 def read(path, along, limits):
@@ -52,7 +46,7 @@ def main():
                 raise SystemExit(f"{path}: no column '{column}'; it has {', '.join(table)}")
             panel.plot(table[arguments.along], table[column], ".-", color=colour, markersize=3, linewidth=0.8, label=label or column)
         panel.set_title(f"t = {table['time'][0]:g}", fontsize=10)
-        panel.set_xlabel(f"{arguments.along} (m)")
+        panel.set_xlabel(arguments.along)
         panel.grid(alpha=0.3)
     panels[0][0].legend(fontsize=8)
     figure.tight_layout()

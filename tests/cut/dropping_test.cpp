@@ -20,14 +20,25 @@ std::vector<Surface> chamber(double x0, double x1, double y0, double y1) {
           rectangle(x0 - .2, y0 - .2, x0, y1 + .2), rectangle(x1, y0 - .2, x1 + .2, y1 + .2)};
 }
 
+/// A field in the unit square, cut by bodies; all its nodes have a state.
+struct Pond {
+  explicit Pond(int cells)
+      : mesh(grid(CellType::quadrilateral, {cells, cells, 0}, unmoved())),
+        field("water", mesh, {{"u", 1, 1, 1, ""}}),
+        cut(field) {
+    for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
+  }
+  Mesh mesh;
+  Field field;
+  FieldCut cut;
+};
+
 }  // namespace
 
 TEST_CASE("What the first cut of a step drops stays out for the step", "[cut][parts][ranks]") {
   const double h = 1.0 / 20;
-  const Mesh mesh = grid(CellType::quadrilateral, {20, 20, 0}, unmoved());
-  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
-  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
-  FieldCut cut(field);
+  Pond pond(20);
+  FieldCut& cut = pond.cut;
   double shift = 0, width = h, slit = 0;
   for (int k = 0; k < 4; ++k)
     cut.add_body([&, k](double) {
@@ -64,10 +75,8 @@ TEST_CASE("What the first cut of a step drops stays out for the step", "[cut][pa
 
 TEST_CASE("A part that comes alive far from all others has no state to start from", "[cut][parts][ranks]") {
   const double h = 1.0 / 20;
-  const Mesh mesh = grid(CellType::quadrilateral, {20, 20, 0}, unmoved());
-  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
-  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
-  FieldCut cut(field);
+  Pond pond(20);
+  FieldCut& cut = pond.cut;
   double width = -0.5 * h;  // the walls overlap
   for (int k = 0; k < 4; ++k)
     cut.add_body([&, k](double) { return chamber(.43, .43 + width, .52, .52 + h)[k]; });
@@ -78,10 +87,8 @@ TEST_CASE("A part that comes alive far from all others has no state to start fro
 
 TEST_CASE("What the first cut of a step keeps stays in for the step", "[cut][parts][ranks]") {
   const double h = 1.0 / 20;
-  const Mesh mesh = grid(CellType::quadrilateral, {20, 20, 0}, unmoved());
-  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
-  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
-  FieldCut cut(field);
+  Pond pond(20);
+  FieldCut& cut = pond.cut;
   double width = 2.1 * h;
   for (int k = 0; k < 4; ++k)
     cut.add_body([&, k](double) { return chamber(.43, .43 + width, .52, .52 + h)[k]; });
@@ -98,10 +105,8 @@ TEST_CASE("What the first cut of a step keeps stays in for the step", "[cut][par
 }
 
 TEST_CASE("Held cells keep their unknowns to the end of the step though a body covers them", "[cut][parts]") {
-  const Mesh mesh = grid(CellType::quadrilateral, {10, 10, 0}, unmoved());
-  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
-  for (Block& block : field.blocks()) block.known.assign(block.known.size(), 1);
-  FieldCut cut(field);
+  Pond pond(10);
+  FieldCut& cut = pond.cut;
   double radius = 0.21;
   cut.add_body([&](double) { return circle({0.5, 0.5, 0}, radius, 40); });
   const auto active = [&] { return std::count(cut.active_cells().begin(), cut.active_cells().end(), 1); };
@@ -114,10 +119,10 @@ TEST_CASE("Held cells keep their unknowns to the end of the step though a body c
   // Cells without any fluid have no points to integrate at.
   CutRule rule;
   int covered = 0;
-  for (int c = 0; c < mesh.cells(); ++c) {
+  for (int c = 0; c < pond.mesh.cells(); ++c) {
     if (cut.active_cells()[c] == 0 || cut.mesh().state(c) != CellState::body) continue;
     ++covered;
-    CHECK(field.is_cut(c));
+    CHECK(pond.field.is_cut(c));
     cut.mesh().volume_rule(c, 2, rule);
     CHECK(rule.count() == 0);
   }

@@ -232,6 +232,14 @@ TEST_CASE("The fluid part follows a moving body continuously", "[cut][plane]") {
   }
 }
 
+TEST_CASE("1000 facets cut 776 of 100,000 cells; how fast is a benchmark's business", "[cut][plane]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {400, 250, 0}, unmoved());
+  CutMesh cut(mesh);
+  const Surface body = circle({0.5, 0.48, 0}, 0.3, 1000);
+  cut.cut(std::span(&body, 1));
+  CHECK(cut.cut_cells().size() == 776);
+}
+
 TEST_CASE("Cutting 100,000 cells with 1000 facets", "[.speed]") {
   const Mesh mesh = grid(CellType::quadrilateral, {400, 250, 0}, unmoved());
   CutMesh cut(mesh);
@@ -247,5 +255,4 @@ TEST_CASE("Cutting 100,000 cells with 1000 facets", "[.speed]") {
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   WARN(seconds << " s for " << cut.cut_cells().size() << " cut cells");
-  CHECK(cut.cut_cells().size() == 776);
 }

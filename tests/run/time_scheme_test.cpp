@@ -38,3 +38,12 @@ TEST_CASE(
   CHECK(order("time.theta=0.5") == Approx(2).margin(0.1));
   CHECK(order("time.theta=1 --set time.scheme=bdf2") == Approx(2).margin(0.1));
 }
+
+TEST_CASE("BDF2 takes no theta") {
+  const Folder folder;
+  const Result run =
+      seam("run " SEAM_SOURCE_DIR "/configs/solid/oscillator.yaml --set time.scheme=bdf2 --folder " +
+           folder.path.string());
+  CHECK(run.code != 0);
+  CHECK_THAT(run.output, Catch::Contains("BDF2 has no theta"));
+}

@@ -14,12 +14,11 @@ namespace seam {
 
 /// The instant at which terms are evaluated, and what the time scheme makes of a rate there:
 /// rate = factor (value - old value) + known part (thesis (2.93), (2.94)), where the known part is
-/// -(1 - theta)/theta times the old rate, or, with two steps, times the mean rate over the step before.
+/// -(1 - theta)/theta times the old rate or, where states keep it, the mean rate over the step before.
 struct TimePoint {
   double time = 0;
   double step = 0;  ///< 0 in a static problem
   double theta = 1;
-  bool two_steps = false;
   /// d(rate)/d(value) and d(second rate)/d(value).
   double rate_factor = 0;
   double second_rate_factor = 0;

@@ -99,10 +99,7 @@ void Extension::check_reach(int number) const {
   for (int c = 0; c < mesh.owned_cells(); ++c) {
     if (!field_->active_cells()[c]) continue;
     for (int p = 0; p < field_->parts(c); ++p) {
-      const int* nodes = field_->cell_nodes(number, c, p);
-      if (std::none_of(nodes, nodes + block.space->nodes_per_cell(),
-                       [&](int n) { return block.known[n] != 0; }))
-        lost = mesh.global_cell(c);
+      if (!block.knows_any(field_->cell_nodes(number, c, p))) lost = mesh.global_cell(c);
     }
   }
   lost = mesh.communicator().max(lost);

@@ -45,8 +45,7 @@ bool FieldCut::update(double time) {
     held_.clear();
     field_->keep_cut_faces(false);
   }
-  if (surfaces == surfaces_ && (decides ? is_first_cut_ && !is_filling_ : true) && states_match())
-    return false;
+  if (surfaces == surfaces_ && (!decides || (is_first_cut_ && !is_filling_)) && states_match()) return false;
   mesh_.cut(surfaces);
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
@@ -134,10 +133,7 @@ bool FieldCut::has_state(int cell) const {
   for (int b = 0; b < static_cast<int>(field_->blocks().size()); ++b) {
     const Block& block = field_->blocks()[b];
     for (int p = 0; p < field_->parts(cell) && !block.given; ++p) {
-      const int* nodes = field_->cell_nodes(b, cell, p);
-      if (std::any_of(nodes, nodes + block.space->nodes_per_cell(),
-                      [&](int n) { return block.known[n] != 0; }))
-        return true;
+      if (block.knows_any(field_->cell_nodes(b, cell, p))) return true;
     }
   }
   return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -63,6 +64,11 @@ struct Block {
   std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
   std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
   std::vector<int> time_order;           ///< per component
+
+  /// @param nodes of a cell
+  [[nodiscard]] bool knows_any(const int* nodes) const {
+    return std::any_of(nodes, nodes + space->nodes_per_cell(), [&](int n) { return known[n] != 0; });
+  }
 };
 
 /// A field: unknowns on a mesh.

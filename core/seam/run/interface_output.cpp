@@ -27,10 +27,9 @@ InterfaceOutput::InterfaceOutput(const Problem& problem, const std::filesystem::
     : communicator_(problem.communicator()), folder_(folder / "interfaces") {
   for (const InterfaceMeasure& measure : problem.measures()) {
     if (measure.shares.empty()) continue;
-    const std::size_t dot = measure.name.find('.');
-    Interface& interface = interfaces_[measure.name.substr(0, dot)];
+    Interface& interface = interfaces_[measure.interface];
     interface.dimension = measure.shares.front().domain->fields().front()->mesh().dimension();
-    Column column{measure.name.substr(dot + 1), {}, 1};
+    Column column{measure.name, {}, 1};
     for (const auto& [domain, quantity] : measure.shares) {
       column.quantities[domain].push_back(quantity);
       column.components = quantity.term->signature(interface.dimension).values;

@@ -83,7 +83,8 @@ void Probe::record(Problem& problem, const TimePoint& at, Results& results) cons
 
 void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
   for (const InterfaceMeasure& measure : problem.measures())
-    results.series[measure.name].push_back(interface_measure(measure, at, problem.communicator()));
+    results.series[measure.interface + "." + measure.name].push_back(
+        interface_measure(measure, at, problem.communicator()));
   for (const FieldEntry& entry : problem.fields()) {
     if (entry.cut) results.series[entry.name + ".dropped_volume"].push_back(entry.cut->dropped_volume());
     for (const FieldQuantity& integral : entry.integrals) {

@@ -143,7 +143,7 @@ void Simulation::build_couplings(const Registry& registry) {
       std::map<std::string, std::vector<BoundTerm>> terms;  // by part
       for (const auto& term : coupling->terms(sides)) terms[term.part].push_back(bind(term));
       for (const auto& measure : coupling->measures(sides)) {
-        InterfaceMeasure recorded{parameters.text("on") + "." + measure.name, {}, measure.of};
+        InterfaceMeasure recorded{parameters.text("on"), measure.name, {}, measure.of};
         for (const auto& quantity : measure.quantities)
           recorded.shares.push_back({built.part(quantity.part), bind(quantity)});
         problem_.add_measure(std::move(recorded));
@@ -245,11 +245,12 @@ void Simulation::record_failure(const std::string& reason) {
 
 TimePoint Simulation::step_to(double until) const {
   const double step = stepper_.is_static() ? 0 : until - state_.time;
-  if (stepper_.two_steps()) {
-    const std::vector<double>& times = state_.results.time;
-    return two_step_point(until, step, times.size() > 1 ? times.back() - times[times.size() - 2] : 0);
-  }
-  const double theta = state_.step_number == 0 && problem_.constrains_rates() ? 1 : stepper_.theta();
+  const std::vector<double>& times = state_.results.time;
+  double theta = stepper_.theta();
+  if (stepper_.two_steps())
+    theta = two_step_theta(step, times.size() > 1 ? times.back() - times[times.size() - 2] : 0);
+  else if (state_.step_number == 0 && problem_.constrains_rates())
+    theta = 1;
   return time_point(until, step, theta);
 }
 

@@ -255,9 +255,9 @@ void Problem::update_rates(const TimePoint& at) {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       NodalState &now = block.now, &old = block.old;
-      const auto& carried = at.two_steps ? old.mean_rate : old.rate;
+      const auto& carried = old.mean_rate.empty() ? old.rate : old.mean_rate;
       update_rate(at, block, 1, now.value, old.value, carried, now.rate, now.mean_rate);
-      const auto& second_carried = at.two_steps ? old.mean_second_rate : old.second_rate;
+      const auto& second_carried = old.mean_second_rate.empty() ? old.second_rate : old.mean_second_rate;
       update_rate(at, block, 2, now.rate, old.rate, second_carried, now.second_rate, now.mean_second_rate);
     }
 }
@@ -327,11 +327,9 @@ void Problem::restore(const Snapshot& states) {
     }
 }
 
-TimePoint two_step_point(double time, double step, double previous) {
+double two_step_theta(double step, double previous) {
   const double ratio = previous > 0 ? step / previous : 0;
-  TimePoint at = time_point(time, step, (1 + ratio) / (1 + 2 * ratio));
-  at.two_steps = true;
-  return at;
+  return (1 + ratio) / (1 + 2 * ratio);
 }
 
 TimePoint time_point(double time, double step, double theta) {

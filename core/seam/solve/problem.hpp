@@ -69,7 +69,7 @@ struct FieldEntry {
 
 /// A number that a coupling wants recorded.
 struct InterfaceMeasure {
-  std::string name;  ///< of the interface and of the quantity: "gamma.mismatch"
+  std::string interface, name;  ///< recorded as the series "interface.name"
   struct Share {
     std::shared_ptr<const IntegrationDomain> domain;
     BoundTerm quantity;
@@ -160,7 +160,8 @@ class Problem {
   void add_initial_rates(const std::vector<double>& increment);
   /// Makes the present state the old one, predicts, and sets the prescribed values at the end of the step.
   void begin_step(const TimePoint& at);
-  /// What steps with TimePoint::two_steps need; before the first step.
+  /// From now on states keep mean rates, and rates follow from them: with two_step_theta() the backward
+  /// difference formula of second order (BDF2). Before the first step.
   void keep_mean_rates();
   /// Lets rates follow the values as the time scheme says.
   void update_rates(const TimePoint& at);
@@ -199,8 +200,9 @@ class Problem {
 
 /// The one-step-theta scheme at the end of a step; step 0 means a static problem.
 TimePoint time_point(double time, double step, double theta);
-/// The backward difference formula of second order (BDF2) at the end of a step.
-/// @param previous length of the step before; 0 when there is none: then it is implicit Euler
-TimePoint two_step_point(double time, double step, double previous);
+/// Theta with which mean rates of the step before make the backward difference formula of second order
+/// (BDF2).
+/// @param previous length of the step before, s; 0 when there is none: then it is implicit Euler
+double two_step_theta(double step, double previous);
 
 }  // namespace seam
