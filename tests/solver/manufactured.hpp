@@ -56,7 +56,7 @@ struct ManufacturedLoad {
     Mat<dim, dim, Inner> gradient;
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j) gradient(i, j) = displacement[i].d[j];
-    const solid::Deformation<dim, Inner> d(gradient);
+    const Deformation<dim, Inner> d(gradient);
     const auto stress = d.stress(seam::gradient<3>(*material, d.invariant));
     Vec<dim, double> load;
     for (int i = 0; i < dim; ++i) {

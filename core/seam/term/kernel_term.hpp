@@ -86,6 +86,8 @@ template <class O>
 using OldGradient = Read<O, Shape::gradient, Level::old>;
 template <class O>
 using OldRate = Read<O, Shape::value, Level::old_rate>;
+template <class O>
+using OldRateGradient = Read<O, Shape::gradient, Level::old_rate>;
 
 /// A list of reads; knows where each stands in the flat array of a point.
 template <class... R>
@@ -171,6 +173,10 @@ struct Trial {
   template <class O>
   auto old_rate(O) const {
     return load<OldRate<O>>();
+  }
+  template <class O>
+  auto old_rate_gradient(O) const {
+    return load<OldRateGradient<O>>();
   }
 
  private:

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "laws.hpp"
+#include "seam/physics/hyperelastic.hpp"
+#include "seam/scene/expression.hpp"
+#include "seam/term/kernel_term.hpp"
+
+/// The weak form of a porous body whose skeleton deforms and whose pores are filled with an incompressible
+/// fluid: the balances (2.43), (2.44) and (2.46) of the thesis, term by term, pulled back to the reference
+/// configuration. With w = v - du/dt, m = J phi, C = cof F = J F^-T:
+///   mass:     (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w>
+///   fluid:    (dv, rho_F J (dv/dt - grad v du/dt)) - (grad0 dv, p C) + (dv, mu phi C K^-1 C^T w) - (dv,
+///   rho_F J b) mixture:  (du, rho_S d2u/dt2) + (grad0 du, P_skeleton - p' C) - (du, phi C grad0 p) - (du, mu
+///   phi^2 C K^-1 C^T w)
+///             - (du, rho_S b)
+/// where p' = Porosity::back_pressure. The printed forms (2.57) and (2.121) are damaged; these follow from
+/// the balances.
+namespace seam::poro {
+
+using u = Vector<0>;
+using v = Vector<1>;
+using p = Scalar<2>;
+
+/// What the fluid in the pores is, and what holds it back.
+struct PoreFlow {
+  double density;    ///< rho_F, kg/m^3
+  double viscosity;  ///< mu, Pa s
+  Porosity porosity;
+  bool kozeny_carman;
+  std::array<double, 9> inverse_permeability;  ///< [3][3], 1/m^2, of which dimension x dimension count
+
+  template <int dim>
+  [[nodiscard]] Resistance<dim> resistance() const {
+    Resistance<dim> result{{}, kozeny_carman, porosity.initial};
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) result.inverse_permeability(i, j) = inverse_permeability[i * 3 + j];
+    return result;
+  }
+  /// mu phi C K^-1 C^T w, Pa/m of reference volume: what the skeleton takes from the fluid, over phi.
+  template <int dim, class T>
+  [[nodiscard]] Vec<dim, T> drag(const Deformation<dim, T>& d, const T& fluid_volume,
+                                 const Vec<dim, T>& w) const {
+    const T phi = fluid_volume / d.invariant[2];
+    const Vec<dim, T> flow = transpose(d.cofactor) * w;
+    return (viscosity * phi) * (d.cofactor * resistance<dim>()(fluid_volume, flow));
+  }
+};
+
+/// Balance of mass without its boundary term.
+struct Storage {
+  using Reads = Slots<Gradient<u>, RateGradient<u>, Rate<u>, Value<v>, Value<p>, Rate<p>, OldGradient<u>,
+                      OldValue<p>, OldRateGradient<u>, OldRate<p>>;
+  using Tests = Slots<Value<p>, Gradient<p>>;
+  Porosity porosity;
+  bool conservative;  ///< what is stored in a step is the change of J phi, not its derivative times the step
+
+  /// dm/dt by the chain rule.
+  template <int dim, class T>
+  [[nodiscard]] T chain_rule(const Deformation<dim, T>& d, const Mat<dim, dim, T>& velocity_gradient,
+                             const T& pressure, const T& pressure_rate) const {
+    using Two = Fad<2, T>;
+    const Two m = porosity.fluid_volume(Two(d.invariant[2], 0), Two(pressure, 1));
+    return m.d[0] * inner(d.cofactor, velocity_gradient) + m.d[1] * pressure_rate;
+  }
+
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T m = porosity.fluid_volume(d.invariant[2], s.value(p{}));
+    const T phi = m / d.invariant[2];
+    if (conservative && x.step > 0) {
+      const Deformation<dim, T> old(s.old_gradient(u{}));
+      const T before = porosity.fluid_volume(old.invariant[2], s.old_value(p{}));
+      T rate = (m - before) / (x.theta * x.step);
+      if (x.theta < 1)
+        rate -= (1 - x.theta) / x.theta *
+                chain_rule<dim, T>(old, s.old_rate_gradient(u{}), s.old_value(p{}), s.old_rate(p{}));
+      r.value(p{}) += rate;
+    } else {
+      r.value(p{}) += chain_rule<dim, T>(d, s.rate_gradient(u{}), s.value(p{}), s.rate(p{}));
+    }
+    const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
+    r.gradient(p{}) -= phi * (transpose(d.cofactor) * w);
+  }
+};
+
+/// <dp, phi C N.w> of the balance of mass, on all of the boundary.
+struct Seepage {
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Value<p>>;
+  using Tests = Slots<Value<p>>;
+  Porosity porosity;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T phi = porosity.fluid_volume(d.invariant[2], s.value(p{})) / d.invariant[2];
+    const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
+    r.value(p{}) += phi * dot(d.cofactor * x.normal, w);
+  }
+};
+
+/// Momentum of the fluid in the pores.
+struct PoreMomentum {
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Rate<v>, Gradient<v>, Value<p>>;
+  using Tests = Slots<Value<v>, Gradient<v>>;
+  PoreFlow flow;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T& j = d.invariant[2];
+    const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
+    const T m = flow.porosity.fluid_volume(j, s.value(p{}));
+    r.value(v{}) += flow.template drag<dim, T>(d, m, w);
+    r.gradient(v{}) -= s.value(p{}) * d.cofactor;
+    if (flow.density == 0) return;
+    // The observer moves with the skeleton: J grad v du/dt = grad0 v C^T du/dt.
+    r.value(v{}) +=
+        flow.density * (j * s.rate(v{}) - s.gradient(v{}) * (transpose(d.cofactor) * s.rate(u{})));
+  }
+};
+
+/// Momentum of the mixture without inertia.
+struct Mixture {
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Value<p>, Gradient<p>>;
+  using Tests = Slots<Value<u>, Gradient<u>>;
+  PotentialPointer skeleton;
+  PoreFlow flow;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T m = flow.porosity.fluid_volume(d.invariant[2], s.value(p{})), phi = m / d.invariant[2];
+    r.gradient(u{}) += d.stress(*skeleton) - flow.porosity.back_pressure(m, s.value(p{})) * d.cofactor;
+    const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
+    r.value(u{}) -= phi * (d.cofactor * s.gradient(p{}) + flow.template drag<dim, T>(d, m, w));
+  }
+};
+
+/// (du, rho_S d2u/dt2)
+struct SkeletonInertia {
+  using Reads = Slots<SecondRate<u>>;
+  using Tests = Slots<Value<u>>;
+  double density;  ///< averaged, kg/m^3 of reference volume
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(u{}) += density * s.second_rate(u{});
+  }
+};
+
+/// -factor (du, b(X, t)): a body force (factor rho_S) or a dead traction on the mixture (factor 1).
+struct Load {
+  using Reads = Slots<>;
+  using Tests = Slots<Value<u>>;
+  std::vector<Expression> load;
+  double factor;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
+    Vec<dim, double> value;
+    for (int i = 0; i < dim; ++i) value[i] = factor * load[i](x.position.c.data(), dim, x.time);
+    r.value(u{}) -= value;
+  }
+};
+
+/// -(dv, rho_F J b) on the fluid in the pores.
+struct FluidLoad {
+  using Reads = Slots<Gradient<u>>;
+  using Tests = Slots<Value<v>>;
+  std::vector<Expression> force;  ///< m/s^2, of the place in the reference configuration
+  double density;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    Vec<dim, double> value;
+    for (int i = 0; i < dim; ++i) value[i] = density * force[i](x.position.c.data(), dim, x.time);
+    r.value(v{}) -= d.invariant[2] * value;
+  }
+};
+
+/// <dv, p N> on the current boundary: the pressure of a fluid outside, in the pores.
+struct PorePressure {
+  using Reads = Slots<Gradient<u>>;
+  using Tests = Slots<Value<v>>;
+  Expression pressure;  ///< Pa
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    r.value(v{}) += pressure(x.position.c.data(), dim, x.time) * (d.cofactor * x.normal);
+  }
+};
+
+/// <du, p N> on the current boundary: the same pressure on the mixture.
+struct MixturePressure {
+  using Reads = Slots<Gradient<u>>;
+  using Tests = Slots<Value<u>>;
+  Expression pressure;  ///< Pa, positive in compression
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    r.value(u{}) += pressure(x.position.c.data(), dim, x.time) * (d.cofactor * x.normal);
+  }
+};
+
+/// Continuous interior penalty (2.123), (2.124) of velocity and pressure in the pores, in the reference
+/// configuration and with the initial resistance (Remark 2.10).
+struct InteriorPenalty {
+  using v0 = Vector<0>;
+  using v1 = Vector<1>;
+  using p0 = Scalar<2>;
+  using p1 = Scalar<3>;
+  using Reads = Slots<NormalDerivative<v0>, NormalDerivative<v1>, NormalDerivative<p0>, NormalDerivative<p1>>;
+  using Tests = Reads;
+  double resistance;            ///< mu phi_0/K_0, Pa s/m^2
+  double density;               ///< of the fluid, kg/m^3
+  double pressure, divergence;  ///< gamma_p, gamma_div
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    constexpr double c_t = 1.0 / 12;
+    const double h = x.cell_size;
+    const double phi = h * h * (resistance + (x.step > 0 ? c_t * density / (x.theta * x.step) : 0.0));
+    const Vec<dim, T> jump = s.normal_derivative(v0{}) - s.normal_derivative(v1{});
+    const Vec<dim, T> on_v = (divergence * h * phi * dot(jump, x.normal)) * x.normal;
+    const T on_p = (pressure * h * h * h / phi) * (s.normal_derivative(p0{}) - s.normal_derivative(p1{}));
+    r.normal_derivative(v0{}) += on_v;
+    r.normal_derivative(v1{}) -= on_v;
+    r.normal_derivative(p0{}) += on_p;
+    r.normal_derivative(p1{}) -= on_p;
+  }
+};
+
+}  // namespace seam::poro

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "porous_solid.hpp"
+
+namespace seam::poro {
+namespace {
+
+Schema boundary_schema() {
+  Schema s("A condition on part of the boundary.");
+  s.names("on", "Boundaries of the mesh").naming("boundary");
+  s.vector_expression("displacement", "Prescribed displacement of the skeleton; null leaves a component free")
+      .unit("m")
+      .optional();
+  s.vector_expression("traction", "Dead load on the mixture per reference area").unit("Pa").optional();
+  s.expression("pressure", "Load on the mixture along the current inward normal, per current area")
+      .unit("Pa")
+      .optional();
+  s.vector_expression(
+       "velocity",
+       "Prescribed velocity in the pores, as 0 across a wall at rest; null leaves a component free")
+      .unit("m/s")
+      .optional();
+  s.expression(
+       "pore_pressure",
+       "Pressure of the fluid outside that pores are open to; default 0, where the velocity across is free")
+      .unit("Pa")
+      .optional();
+  return s;
+}
+
+Schema porosity_schema() {
+  Schema s("Part of the volume that is fluid.");
+  s.number("initial", "phi_0, at the start and without load").above(0).below(1);
+  s.number("bulk",
+           "kappa^P: of the skeleton's own material, thesis (2.48); without it the porosity stays as it is")
+      .unit("Pa")
+      .above(0)
+      .optional();
+  s.number("opening", "eta^P: keeps pores open, thesis (2.49)").unit("Pa").otherwise("0").at_least(0);
+  return s;
+}
+
+}  // namespace
+
+Schema PorousSolid::schema() {
+  Schema s(
+      "Porous body of hyperelastic skeleton, filled with an incompressible fluid, at finite strain; plane "
+      "strain in 2D.");
+  s.reference("mesh", "Its reference shape", "mesh");
+  s.typed("material", "Strain energy of the skeleton", "hyperelastic");
+  s.number("density", "Mass of the skeleton per reference volume of the mixture; 0 leaves out its inertia")
+      .unit("kg/m^3")
+      .otherwise("0")
+      .at_least(0);
+  s.number("fluid_density", "Mass per volume of the fluid; 0 leaves out its inertia")
+      .unit("kg/m^3")
+      .otherwise("0")
+      .at_least(0);
+  s.number("viscosity", "Dynamic viscosity of the fluid").unit("Pa s").above(0);
+  s.object("porosity", "Part of the volume that is fluid", porosity_schema());
+  s.vector("permeability",
+           "Material permeability K: one number, the diagonal, or all of the tensor row by row")
+      .unit("m^2")
+      .entries(-1);
+  s.boolean("kozeny_carman",
+            "K changes with the fluid's volume, thesis (4.26); as given it belongs to the initial porosity")
+      .otherwise("false");
+  s.integer("order", "1: all unknowns, stabilised; 2: of displacement and velocity, with pressure of order 1")
+      .otherwise("1")
+      .at_least(1)
+      .at_most(2);
+  s.choice("storage",
+           "`conservative`: a step stores the change of the fluid's volume, to rounding; `chain_rule`: the "
+           "derivative of that volume, "
+           "for a scheme of second order over two steps",
+           {"conservative", "chain_rule"})
+      .otherwise("conservative");
+  Schema stabilisation("Continuous interior penalty of order 1, thesis (2.123), (2.124).");
+  stabilisation.number("pressure", "gamma_p").otherwise("0.05").above(0);
+  stabilisation.number("divergence", "gamma_div").otherwise("5e-5").at_least(0);
+  s.object("stabilisation", "Factors of the interior penalty", stabilisation).otherwise("{}");
+  s.vector_expression("body_force", "On the mixture, per mass of the skeleton").unit("m/s^2").optional();
+  s.vector_expression("fluid_body_force", "On the fluid in the pores, per mass").unit("m/s^2").optional();
+  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction and drained",
+         boundary_schema())
+      .otherwise("[]");
+  Schema initial("State at the start");
+  initial.vector_expression("displacement", "Displacement").unit("m").optional();
+  initial.vector_expression("velocity_of_skeleton", "Its rate").unit("m/s").optional();
+  initial.vector_expression("velocity", "Velocity in the pores").unit("m/s").optional();
+  initial.expression("pressure", "Pressure in the pores").unit("Pa").optional();
+  s.object("initial", "State at the start; default at rest, undeformed", initial).optional();
+  return s;
+}
+
+}  // namespace seam::poro
