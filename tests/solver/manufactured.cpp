@@ -9,7 +9,7 @@ namespace seam::test {
 namespace {
 
 /// The law of materials.cpp under test comes from the registry, as scenes get it.
-solid::PotentialPointer neo_hookean(double poisson) {
+PotentialPointer neo_hookean(double poisson) {
   Registry registry;
   solid::declare_materials(registry);
   Parameters p;
@@ -54,7 +54,7 @@ class ManufacturedSolid final : public Physics {
  private:
   static constexpr double density = 1.5;
   Body body_;
-  solid::PotentialPointer material_;
+  PotentialPointer material_;
 };
 
 std::string scaled(const Wave& w, const std::string& time_factor) {

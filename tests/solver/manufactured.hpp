@@ -42,7 +42,7 @@ struct ManufacturedLoad {
   using Reads = Slots<>;
   using Tests = Slots<Value<solid::u>>;
   Wave exact;
-  solid::PotentialPointer material;
+  PotentialPointer material;
   double density;
   bool dynamic;
 
