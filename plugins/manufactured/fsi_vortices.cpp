@@ -1,47 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fsi_vortices.hpp"
 
-#include "balance.hpp"
 #include "seam/scene/function.hpp"
+#include "vortices.hpp"
 
 namespace seam::manufactured {
 namespace {
 
-/// The fields of thesis (3.42)-(3.44), with the sign of (3.44) that makes du/dt the solid's velocity.
-struct Vortices {
-  double fluid_amplitude, body_amplitude;
-  double wave_number;  ///< B, 1/m
-  double decay;        ///< C^2, 1/s
-
-  template <class T>
-  [[nodiscard]] Vec<2, T> swirl(const Event<T>& e) const {
-    using std::cos, std::sin;
-    const T x = wave_number * e[0], y = wave_number * e[1];
-    return {-(cos(x) * sin(y)), sin(x) * cos(y)};
-  }
-  template <class T>
-  [[nodiscard]] Vec<2, T> velocity(const Event<T>& e) const {
-    using std::exp;
-    return T(fluid_amplitude * exp(-decay * e[2])) * swirl(e);
-  }
-  template <class T>
-  [[nodiscard]] T pressure(const Event<T>& e) const {
-    using std::cos, std::exp;
-    return -0.25 * exp(-2 * decay * e[2]) * (cos(2 * wave_number * e[0]) + cos(2 * wave_number * e[1]));
-  }
-  template <class T>
-  [[nodiscard]] Vec<2, T> displacement(const Event<T>& e) const {
-    using std::expm1;
-    // expm1: 1 - exp would lose five digits.
-    return T((-body_amplitude / decay) * expm1(-decay * e[2])) * swirl(e);
-  }
-};
-
 class FsiVortices final : public Function {
  public:
   explicit FsiVortices(const Parameters& p)
-      : fields_{p.number("fluid_amplitude"), p.number("body_amplitude"), p.number("wave_number"),
-                p.number("decay")},
+      : fluid_amplitude_(p.number("fluid_amplitude")),
+        body_amplitude_(p.number("body_amplitude")),
+        fields_{p.number("wave_number"), p.number("decay")},
         fluid_{p.number("density"), p.number("viscosity")},
         body_(p.number("body_density"), p.number("young"), p.number("poisson")) {
     if (p.dimension() != 2) throw Error(p.where(), "`fsi_vortices` are plane: give `dimension: 2`");
@@ -80,32 +51,35 @@ class FsiVortices final : public Function {
     const Event<double> here{x[0], x[1], t};
     switch (part) {
       case 0:
-        return put(fields_.velocity(here));
+        return put(fields_.velocity(fluid_amplitude_, here));
       case 1:
-        return put(space_gradient(fields_.velocity(once(x, t))));
+        return put(space_gradient(fields_.velocity(fluid_amplitude_, once(x, t))));
       case 2:
-        *value = fields_.pressure(here);
+        *value = fields_.pressure(1, here);
         return;
       case 3:
-        return put(fluid_.force(fields_.velocity(twice(x, t)), fields_.pressure(once(x, t))));
+        return put(
+            fluid_.force(fields_.velocity(fluid_amplitude_, twice(x, t)), fields_.pressure(1, once(x, t))));
       case 4:
-        return put(fluid_.stress(space_gradient(fields_.velocity(once(x, t))), fields_.pressure(here)));
+        return put(fluid_.stress(space_gradient(fields_.velocity(fluid_amplitude_, once(x, t))),
+                                 fields_.pressure(1, here)));
       case 5:
-        return put(fields_.displacement(here));
+        return put(fields_.displacement(body_amplitude_, here));
       case 6: {
-        const auto u = fields_.displacement(once(x, t));
+        const auto u = fields_.displacement(body_amplitude_, once(x, t));
         return put(Vec<2, double>{u[0].d[2], u[1].d[2]});
       }
       case 7:
-        return put(space_gradient(fields_.displacement(once(x, t))));
+        return put(space_gradient(fields_.displacement(body_amplitude_, once(x, t))));
       case 8:
-        return put(body_.force(fields_.displacement(twice(x, t))));
+        return put(body_.force(fields_.displacement(body_amplitude_, twice(x, t))));
       default:
-        return put(body_.cauchy(space_gradient(fields_.displacement(once(x, t)))));
+        return put(body_.cauchy(space_gradient(fields_.displacement(body_amplitude_, once(x, t)))));
     }
   }
 
  private:
+  double fluid_amplitude_, body_amplitude_;
   Vortices fields_;
   Newtonian fluid_;
   NeoHookean body_;

@@ -101,14 +101,12 @@ class ContactInFluid final : public Coupling {
   [[nodiscard]] FluidSided fluid_sided(const CouplingSides& sides) const {
     for (const Operand& operand : free_operands)
       static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
-    const Parameters &penalty = parameters_.object("penalty"), &near = parameters_.object("near_slip");
+    const Parameters& near = parameters_.object("near_slip");
     return {flow_of(sides),
             {},
             {parameters_.number("slip_length"), near.number("factor"),
              near.has("reach") ? near.number("reach") : 0.0},
-            adjoint_of(parameters_),
-            penalty.number("normal"),
-            penalty.number("tangential")};
+            ties_of(parameters_)};
   }
   template <class Body>
   [[nodiscard]] Pulls<Body> pulls(const CouplingSides& sides) const {

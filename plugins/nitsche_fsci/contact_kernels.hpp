@@ -22,7 +22,7 @@ using OtherDisplacement = Vector<1>;
 
 /// n . sigma n.
 template <int dim, class T, class G>
-T normal_stress(const StressLaw& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
+T normal_stress(const Law& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
   return dot(normal, body_traction<dim, T>(law, gradient, normal));
 }
 
@@ -33,7 +33,7 @@ enum class Whose { both, own, other };
 /// stress of both omega = lambda' / (lambda + lambda') and gamma = gamma_0 (omega lambda + (1 - omega)
 /// lambda'), thesis (6.16), (6.17); else omega is 1 or 0.
 struct BodyPull {
-  std::shared_ptr<const StressLaw> own, other;
+  std::shared_ptr<const Law> own, other;
   double penalty;  ///< gamma_0
   Whose stress = Whose::both;
 
@@ -66,7 +66,7 @@ struct TwoBodies {
 /// The same against a rigid body: the stress is the deforming one's.
 struct OneBody {
   using Reads = Slots<Gradient<OwnDisplacement>>;
-  std::shared_ptr<const StressLaw> own;
+  std::shared_ptr<const Law> own;
   double penalty;  ///< gamma_0
 
   template <int dim, class T, class G>

@@ -24,9 +24,39 @@ double adjoint_of(const Parameters& parameters) {
   return name == "skew" ? 1.0 : (name == "symmetric" ? -1.0 : 0.0);
 }
 
-std::shared_ptr<const StressLaw> law_of(const CouplingSides& sides, int side) {
+Ties ties_of(const Parameters& parameters) {
+  const Parameters& penalty = parameters.object("penalty");
+  return {adjoint_of(parameters), penalty.number("normal"), penalty.number("tangential")};
+}
+
+void declare_jump(Schema& jumps, const std::string& key, const std::string& of, const std::string& unit,
+                  bool tensor) {
+  const std::string rows = tensor ? ", row by row" : "";
+  Schema s("A difference.");
+  s.vector_expression("fluid", "Where the point is" + rows).unit(unit).entries(tensor ? -1 : 0).optional();
+  s.vector_expression("body", "To be subtracted, at the body's material point" + rows)
+      .unit(unit)
+      .entries(tensor ? -1 : 0)
+      .optional();
+  jumps.object(key, of, s).optional();
+}
+
+Jump jump_of(const Parameters& jumps, const std::string& key, bool tensor) {
+  Jump jump;
+  if (!jumps.has(key)) return jump;
+  const Parameters& given = jumps.object(key);
+  if (given.has("fluid")) jump.fluid = given.vector_expression("fluid");
+  if (given.has("body")) jump.body = given.vector_expression("body");
+  const auto dim = static_cast<std::size_t>(jumps.dimension()), components = tensor ? dim * dim : dim;
+  for (const auto* side : {&jump.fluid, &jump.body})
+    if (!side->empty() && side->size() != components)
+      throw Error(given.where(), fmt::format("found {} entries, expected {}", side->size(), components));
+  return jump;
+}
+
+std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side) {
   static_cast<void>(sides.fields.at(side)->place("displacement"));
-  const auto& law = sides.fields[side]->stress_law();
+  const auto law = sides.fields[side]->law("stress");
   if (!law)
     throw Error(
         fmt::format("contact needs bodies that make their stress known; field '{}' does not (a solid "

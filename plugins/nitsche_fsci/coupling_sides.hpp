@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact_kernels.hpp"
+#include "fluid_sided.hpp"
 #include "seam/interface/interface.hpp"
 
 /// What the plugin's couplings have in common.
@@ -13,10 +14,19 @@ Flow flow_of(const CouplingSides& sides);
 /// Adds the key `adjoint`, of the fluid's viscous adjoint term, and reads it: xi.
 void declare_adjoint(Schema& schema);
 double adjoint_of(const Parameters& parameters);
+/// From the keys `adjoint` and `penalty`.
+Ties ties_of(const Parameters& parameters);
+
+/// A jump that a manufactured solution has between the sides, as a key of a schema of jumps.
+/// @param tensor its entries are a tensor's, row by row
+void declare_jump(Schema& jumps, const std::string& key, const std::string& of, const std::string& unit,
+                  bool tensor);
+/// @throws Error when it has another number of entries
+Jump jump_of(const Parameters& jumps, const std::string& key, bool tensor);
 
 /// The stress law of the body on a side.
 /// @throws Error when the body has none, naming the field
-std::shared_ptr<const StressLaw> law_of(const CouplingSides& sides, int side);
+std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side);
 
 /// lambda_e of the cells on a side, by the key `scaling`.
 std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,

@@ -44,49 +44,65 @@ struct Slip {
   }
 };
 
-/// The traction between fluid and body is the fluid's (thesis (3.26), (3.27); with Navier slip in the manner
-/// of (4.5)). With n out of the fluid, J = v - du/dt - g_v, P = I - n n^T, Phi = h_Gamma phi of (3.27),
-/// lambda = slip length/mu and beta = h_Gamma/(gamma_t Phi):
+/// How Nitsche's method ties the fluid.
+struct Ties {
+  double adjoint;                             ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
+  double normal_penalty, tangential_penalty;  ///< gamma_n, gamma_t; gamma_t may be infinite
+};
+
+/// Ties the fluid to a surface that moves with another velocity. With n out of the fluid, J the difference of
+/// velocities, P = I - n n^T, Phi = h_Gamma phi of (3.27), lambda = slip length/mu and beta =
+/// h_Gamma/(gamma_t Phi), the fluid gets
 ///
-///   <dv - du, t - sigma n + gamma_n Phi/h_Gamma (J.n) n> - <du, g_sigma> - <dp, J.n>
-///   + xi <2 mu eps(dv) n, (J.n) n + beta t>,   t = [P J + lambda P sigma n] / (lambda + beta).
+///   <dv, r> - <dp, J.n> + xi <2 mu eps(dv) n, (J.n) n + beta t>,
+///   r = t - sigma n + gamma_n Phi/h_Gamma (J.n) n,   t = [P J + lambda P (sigma - sigma_0) n] / (lambda +
+///   beta)
 ///
-/// Length 0 is no slip: t = gamma_t Phi/h_Gamma P J, the form of (3.26). At xi = +1 the viscous adjoint
-/// term cancels the consistency term: stable for every penalty.
+/// and what it is tied to has to get -r. Thesis (3.26), (3.27), with Navier slip in the manner of (4.5); beta
+/// = 0 puts P J/lambda in the place of the tangential traction, as (4.4) does.
+/// @param known sigma_0 n: a traction that the law of slip does not see; zero but for manufactured solutions
+/// @return r, Pa
+template <int dim, class T, class G, class Reads, class Tests>
+Vec<dim, T> tie(const Flow& flow, const Ties& ties, const Point<dim, G>& x, const Trial<dim, T, Reads>& s,
+                const Vec<dim, T>& jump, const Slip::Ratio<T>& slip, const Vec<dim, G>* known,
+                Test<dim, T, Tests>& r) {
+  const Vec<dim, G>& n = x.normal;
+  const T gap = dot(jump, n);
+  Vec<dim, T> force = ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n;
+  force -= s.value(Pressure{}) * n;
+
+  const T phi = resistance<dim, T, G>(flow, x, s.value(Velocity{}));
+  const T beta = (x.trace_size / ties.tangential_penalty) / phi;
+  const T lambda = (1 / flow.viscosity) * slip.gliding;
+  const T sum = lambda + beta * slip.resisting;
+  const Vec<dim, T> along = (slip.resisting / sum) * (jump - gap * n);
+  const Vec<dim, T> rubbing = known ? force - *known : force;
+  const Vec<dim, T> friction = (lambda / sum) * (rubbing - dot(rubbing, n) * n);
+  const Vec<dim, T> t = along + friction;
+  const Vec<dim, T> traction = t - force + ((ties.normal_penalty / x.trace_size) * phi * gap) * n;
+
+  r.value(Velocity{}) += traction;
+  r.value(Pressure{}) -= gap;
+  if (ties.adjoint != 0)
+    r.gradient(Velocity{}) += (2 * ties.adjoint * flow.viscosity) * sym(outer(beta * t + gap * n, n));
+  return traction;
+}
+
+/// The traction between fluid and body is the fluid's, thesis (3.26): the fluid is tied to the body, J = v -
+/// du/dt - g_v, and the body gets -<du, r + g_sigma>.
 struct FluidSided {
   using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Displacement>>;
   using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>>;
   Flow flow;
   Jumps jumps;
   Slip slip;
-  double adjoint;  ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
-  double normal_penalty, tangential_penalty;
+  Ties ties;
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Vec<dim, G>& n = x.normal;
-    const Vec<dim, T> velocity = s.value(Velocity{});
-    const Vec<dim, T> jump = jumps.mismatch<dim, T>(x, velocity, s.rate(Displacement{}));
-    const T gap = dot(jump, n);
-    Vec<dim, T> force = ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n;
-    force -= s.value(Pressure{}) * n;
-
-    const T phi = resistance<dim, T, G>(flow, x, velocity);
-    const T beta = x.trace_size / (tangential_penalty * phi);
-    const Slip::Ratio<T> kappa = slip.ratio<dim, T, G>(x);
-    const T lambda = (1 / flow.viscosity) * kappa.gliding;
-    const T sum = lambda + beta * kappa.resisting;
-    const Vec<dim, T> along = (kappa.resisting / sum) * (jump - gap * n);
-    const Vec<dim, T> friction = (lambda / sum) * (force - dot(force, n) * n);
-    const Vec<dim, T> t = along + friction;
-    const Vec<dim, T> traction = t - force + ((normal_penalty / x.trace_size) * phi * gap) * n;
-
-    r.value(Velocity{}) += traction;
-    r.value(Displacement{}) -= traction;
+    const Vec<dim, T> jump = jumps.mismatch<dim, T>(x, s.value(Velocity{}), s.rate(Displacement{}));
+    r.value(Displacement{}) -= tie<dim, T, G>(flow, ties, x, s, jump, slip.ratio<dim, T, G>(x), nullptr, r);
     r.value(Displacement{}) -= jumps.traction(x);
-    r.value(Pressure{}) -= gap;
-    if (adjoint == 0) return;
-    r.gradient(Velocity{}) += (2 * adjoint * flow.viscosity) * sym(outer(beta * t + gap * n, n));
   }
 };
 

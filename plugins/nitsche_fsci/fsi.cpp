@@ -14,17 +14,6 @@ namespace {
 
 const std::vector<Operand> operands{{0, "velocity"}, {0, "pressure"}, {1, "displacement"}};
 
-Schema jump_schema(const std::string& summary, const std::string& unit, bool tensor) {
-  Schema s(summary);
-  const std::string rows = tensor ? ", row by row" : "";
-  s.vector_expression("fluid", "Where the point is" + rows).unit(unit).entries(tensor ? -1 : 0).optional();
-  s.vector_expression("body", "To be subtracted, at the body's material point" + rows)
-      .unit(unit)
-      .entries(tensor ? -1 : 0)
-      .optional();
-  return s;
-}
-
 /// No slip, or Navier slip, between a fluid and a deforming body.
 class Fsi final : public Coupling {
  public:
@@ -61,11 +50,10 @@ class Fsi final : public Coupling {
     s.object("penalty", "Factors of Nitsche's penalty", penalty).otherwise("{}");
     declare_scaling(s, "step");
     Schema jump("Given jumps between the two sides, as those of a manufactured solution.");
-    jump.object("velocity", "Of the velocity, thesis (3.48)", jump_schema("A difference.", "m/s", false))
-        .optional();
-    jump.object("stress", "Of the stress, times the normal out of the fluid the traction's, thesis (3.47)",
-                jump_schema("A difference.", "Pa", true))
-        .optional();
+    declare_jump(jump, "velocity", "Of the velocity, thesis (3.48)", "m/s", false);
+    declare_jump(jump, "stress",
+                 "Of the stress, times the normal out of the fluid the traction's, thesis (3.47)", "Pa",
+                 true);
     s.object("jump", "Given jumps between the two sides; default none", jump).optional();
     return s;
   }
@@ -76,15 +64,11 @@ class Fsi final : public Coupling {
     const double adjoint = adjoint_of(parameters_);
     const Parameters& penalty = parameters_.object("penalty");
     if (!solid_sided()) {
-      const FluidSided kernel{flow_of(sides),
-                              jumps(),
-                              {parameters_.number("slip_length")},
-                              adjoint,
-                              penalty.number("normal"),
-                              penalty.number("tangential")};
+      const FluidSided kernel{
+          flow_of(sides), jumps(), {parameters_.number("slip_length")}, ties_of(parameters_)};
       return {{make_term(kernel, 1), operands}};
     }
-    const auto& law = sides.fields[1]->stress_law();
+    const auto law = sides.fields[1]->law("stress");
     if (!law)
       throw Error(
           fmt::format("`stress: solid` needs a body that makes its stress known; field '{}' does not (a "
@@ -107,19 +91,7 @@ class Fsi final : public Coupling {
   [[nodiscard]] Jumps jumps() const {
     if (!parameters_.has("jump")) return {};
     const Parameters& all = parameters_.object("jump");
-    const auto read = [&](const std::string& key, std::size_t components) {
-      Jump jump;
-      if (!all.has(key)) return jump;
-      const Parameters& given = all.object(key);
-      if (given.has("fluid")) jump.fluid = given.vector_expression("fluid");
-      if (given.has("body")) jump.body = given.vector_expression("body");
-      for (const auto* side : {&jump.fluid, &jump.body})
-        if (!side->empty() && side->size() != components)
-          throw Error(given.where(), fmt::format("found {} entries, expected {}", side->size(), components));
-      return jump;
-    };
-    const auto dim = static_cast<std::size_t>(parameters_.dimension());
-    return {read("velocity", dim), read("stress", dim * dim)};
+    return {jump_of(all, "velocity", false), jump_of(all, "stress", true)};
   }
   Parameters parameters_;
 };

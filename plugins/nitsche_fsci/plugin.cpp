@@ -3,10 +3,12 @@
 
 #include "contact.hpp"
 #include "contact_in_fluid.hpp"
+#include "fpi.hpp"
 #include "fsi.hpp"
 
 SEAM_PLUGIN(registry) {
   seam::fsci::declare_fsi(registry);
+  seam::fsci::declare_fpi(registry);
   seam::fsci::declare_contact(registry);
   seam::fsci::declare_contact_in_fluid(registry);
 }

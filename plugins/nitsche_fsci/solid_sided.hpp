@@ -11,7 +11,7 @@ namespace seam::fsci {
 /// The body's traction sigma n = P F^T n / J on a surface with normal n, per current area.
 /// @param gradient of the displacement
 template <int dim, class T, class G>
-Vec<dim, T> body_traction(const StressLaw& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
+Vec<dim, T> body_traction(const Law& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
   Mat<dim, dim, T> f = gradient;
   for (int i = 0; i < dim; ++i) f(i, i) += 1.0;
   const T volume = determinant(f);
@@ -30,7 +30,7 @@ Vec<dim, T> body_traction(const StressLaw& law, const Mat<dim, dim, T>& gradient
 struct SolidSided {
   using Reads = Slots<Value<Velocity>, Rate<Displacement>, Gradient<Displacement>>;
   using Tests = Slots<Value<Velocity>, Value<Displacement>, Gradient<Displacement>>;
-  std::shared_ptr<const StressLaw> law;
+  std::shared_ptr<const Law> law;
   Jumps jumps;
   double adjoint;  ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
   double penalty;  ///< gamma_0

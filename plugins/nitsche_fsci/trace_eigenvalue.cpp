@@ -25,7 +25,7 @@ Eigen::MatrixXd gradient_operator(const CellTrace& cell, const CellPoints& point
 /// of a body on all sides of which its own mean pressure acts. That of P alone is not positive for moderate
 /// pressure already, when a piece cut free would turn or buckle under the dead forces of its surroundings.
 template <int dim>
-Eigen::Matrix<double, dim * dim, dim * dim, Eigen::RowMajor> pressed_tangent(const StressLaw& law,
+Eigen::Matrix<double, dim * dim, dim * dim, Eigen::RowMajor> pressed_tangent(const Law& law,
                                                                              const double* gradient) {
   using Square = Eigen::Matrix<double, dim, dim, Eigen::RowMajor>;
   Square stress;
@@ -44,7 +44,7 @@ Eigen::Matrix<double, dim * dim, dim * dim, Eigen::RowMajor> pressed_tangent(con
 }
 
 template <int dim>
-Eigen::MatrixXd stiffness(const StressLaw& law, const CellTrace& cell) {
+Eigen::MatrixXd stiffness(const Law& law, const CellTrace& cell) {
   constexpr int n = dim * dim;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(dim * cell.nodes, dim * cell.nodes);
   for (int q = 0; q < cell.volume.count(); ++q) {
@@ -56,7 +56,7 @@ Eigen::MatrixXd stiffness(const StressLaw& law, const CellTrace& cell) {
 }
 
 template <int dim>
-Eigen::MatrixXd tractions(const StressLaw& law, const CellTrace& cell) {
+Eigen::MatrixXd tractions(const Law& law, const CellTrace& cell) {
   constexpr int n = dim * dim;
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(dim * cell.nodes, dim * cell.nodes);
   for (int q = 0; q < cell.faces.count(); ++q) {
@@ -99,7 +99,7 @@ Eigen::MatrixXd rigid_motions(const CellTrace& cell) {
 }
 
 template <int dim>
-double largest_eigenvalue(const StressLaw& law, const CellTrace& cell) {
+double largest_eigenvalue(const Law& law, const CellTrace& cell) {
   const Eigen::MatrixXd a = tractions<dim>(law, cell);
   Eigen::MatrixXd b = stiffness<dim>(law, cell);
   const Eigen::MatrixXd rigid = rigid_motions<dim>(cell);

@@ -18,14 +18,14 @@ namespace seam::fsci {
 /// rigidly has neither and is taken out.
 class TraceEigenvalue final : public CellConstant {
  public:
-  TraceEigenvalue(std::shared_ptr<const StressLaw> law, Refresh refresh)
+  TraceEigenvalue(std::shared_ptr<const Law> law, Refresh refresh)
       : law_(std::move(law)), refresh_(refresh) {}
   [[nodiscard]] Refresh refresh() const override { return refresh_; }
   /// @throws StepRefused when the cell's stiffness is not positive: it buckles
   [[nodiscard]] double compute(const CellTrace& cell) const override;
 
  private:
-  std::shared_ptr<const StressLaw> law_;
+  std::shared_ptr<const Law> law_;
   Refresh refresh_;
 };
 

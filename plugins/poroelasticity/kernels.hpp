@@ -49,6 +49,29 @@ struct PoreFlow {
   }
 };
 
+/// What couplings may know of the pores: the law "pores".
+struct PoresFormula {
+  PoreFlow flow;
+  std::array<double, 9> permeability;  ///< [3][3], m^2; in the plane its out-of-plane entry counts, too
+  static constexpr int arguments(int dim) { return dim * dim + 1; }
+  static constexpr int values(int) { return 2; }
+
+  template <int dim, class T>
+  [[nodiscard]] std::array<T, 2> at(const std::array<T, dim * dim + 1>& x) const {
+    Mat<dim, dim, T> gradient;
+    std::copy_n(x.begin(), dim * dim, gradient.c.begin());
+    const Deformation<dim, T> d(gradient);
+    const T& j = d.invariant[2];
+    const T m = flow.porosity.fluid_volume(j, x[dim * dim]);
+    // tr(F K F^T)
+    T trace = T(dim == 2 ? permeability[8] : 0.0);
+    for (int i = 0; i < dim; ++i)
+      for (int a = 0; a < dim; ++a)
+        for (int b = 0; b < dim; ++b) trace += permeability[a * 3 + b] * (d.f(i, a) * d.f(i, b));
+    return {T(m / j), T(flow.resistance<dim>().opened(m) * trace / (3 * j))};
+  }
+};
+
 /// Balance of mass without its boundary term.
 struct Storage {
   using Reads = Slots<Gradient<u>, RateGradient<u>, Rate<u>, Value<v>, Value<p>, Rate<p>, OldGradient<u>,
@@ -174,6 +197,29 @@ struct FluidLoad {
     Vec<dim, double> value;
     for (int i = 0; i < dim; ++i) value[i] = density * force[i](x.position.c.data(), dim, x.time);
     r.value(v{}) -= d.invariant[2] * value;
+  }
+};
+
+/// The loads of bodies above with forces that are given at the nodes.
+struct NodalLoad {
+  using force = Vector<1>;
+  using Reads = Slots<Value<force>>;
+  using Tests = Slots<Value<u>>;
+  double density;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(u{}) -= density * s.value(force{});
+  }
+};
+struct NodalFluidLoad {
+  using force = Vector<2>;
+  using Reads = Slots<Gradient<u>, Value<force>>;
+  using Tests = Slots<Value<v>>;
+  double density;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    r.value(v{}) -= (density * d.invariant[2]) * s.value(force{});
   }
 };
 

@@ -47,8 +47,14 @@ struct Resistance {
   [[nodiscard]] Vec<dim, T> operator()(const T& fluid_volume, const Vec<dim, T>& flow) const {
     const Vec<dim, T> result = inverse_permeability * flow;
     if (!kozeny_carman) return result;
-    const auto shape = [](const auto& m) { return (1 - m * m) / (m * m * m); };
-    return T(shape(fluid_volume) / shape(initial_porosity)) * result;
+    return T(1 / opened(fluid_volume)) * result;
+  }
+  /// What K has become, as a multiple of what it was.
+  template <class T>
+  [[nodiscard]] T opened(const T& fluid_volume) const {
+    if (!kozeny_carman) return T(1.0);
+    const auto shape = [](const auto& m) { return m * m * m / (1 - m * m); };
+    return T(shape(fluid_volume) / shape(initial_porosity));
   }
 };
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "quantities.hpp"
+#include "seam/physics/law.hpp"
 
 namespace seam::poro {
 namespace {
@@ -21,32 +22,31 @@ Porosity porosity_of(const Parameters& given) {
   return {initial, false, given.number("bulk"), opening};
 }
 
+/// K, [3][3]; in the plane its out-of-plane entry is the mean of the others.
 /// @throws Error when there are no 1, dim or dim^2 numbers, or they make no positive definite tensor
 template <int dim>
-std::array<double, 9> inverse_permeability(const Parameters& parameters) {
+Mat<3, 3, double> permeability(const Parameters& parameters) {
   const std::vector<double>& given = parameters.vector("permeability");
-  Mat<dim, dim, double> k;
+  Mat<3, 3, double> k;
   if (given.size() == 1 || given.size() == dim) {
     for (int i = 0; i < dim; ++i) k(i, i) = given.size() == 1 ? given[0] : given[i];
   } else if (given.size() == dim * dim) {
-    std::copy(given.begin(), given.end(), k.c.begin());
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j) k(i, j) = given[i * dim + j];
   } else {
     throw Error(parameters.where("permeability"),
                 fmt::format("found {} numbers; expected 1, {} or {}", given.size(), dim, dim * dim));
   }
+  if (dim == 2) k(2, 2) = 0.5 * (k(0, 0) + k(1, 1));
   bool positive = determinant(k) > 0;
-  for (int i = 0; i < dim; ++i) {
+  for (int i = 0; i < 3; ++i) {
     positive = positive && k(i, i) > 0;
     for (int j = 0; j < i; ++j)
       positive = positive && k(i, j) == k(j, i) && k(i, i) * k(j, j) > k(i, j) * k(i, j);
   }
   if (!positive)
     throw Error(parameters.where("permeability"), "the tensor is not symmetric and positive definite");
-  const Mat<dim, dim, double> inverted = inverse(k);
-  std::array<double, 9> result{};
-  for (int i = 0; i < dim; ++i)
-    for (int j = 0; j < dim; ++j) result[i * 3 + j] = inverted(i, j);
-  return result;
+  return k;
 }
 
 }  // namespace
@@ -54,25 +54,33 @@ std::array<double, 9> inverse_permeability(const Parameters& parameters) {
 PorousSolid::PorousSolid(const Parameters& parameters, const Registry& registry)
     : parameters_(parameters),
       skeleton_(registry.create<Potential>("hyperelastic", parameters.object("material"))),
-      flow_{parameters.number("fluid_density"), parameters.number("viscosity"),
-            porosity_of(parameters.object("porosity")), parameters.boolean("kozeny_carman"),
-            parameters.dimension() == 2 ? inverse_permeability<2>(parameters)
-                                        : inverse_permeability<3>(parameters)},
+      flow_{
+          parameters.number("fluid_density"), parameters.number("viscosity"),
+          porosity_of(parameters.object("porosity")), parameters.boolean("kozeny_carman"),
+          inverse(parameters.dimension() == 2 ? permeability<2>(parameters) : permeability<3>(parameters)).c},
       density_(parameters.number("density")),
+      nodal_forces_(parameters.boolean("interpolate_body_force")),
       order_(static_cast<int>(parameters.integer("order"))) {
   if (skeleton_->arguments() != 3)
     throw Error(parameters.where("material"), "this material does not take the three invariants I1, I2, J");
 }
 
 std::vector<Unknown> PorousSolid::unknowns(int dimension) const {
-  return {{"displacement", dimension, order_, density_ > 0 ? 2 : 1, "m"},
-          {"velocity", dimension, order_, flow_.density > 0 ? 1 : 0, "m/s"},
-          {"pressure", 1, 1, flow_.porosity.given ? 0 : 1, "Pa"}};
+  std::vector<Unknown> result{{"displacement", dimension, order_, density_ > 0 ? 2 : 1, "m"},
+                              {"velocity", dimension, order_, flow_.density > 0 ? 1 : 0, "m/s"},
+                              {"pressure", 1, 1, flow_.porosity.given ? 0 : 1, "Pa"}};
+  for (const std::string force : {"body_force", "fluid_body_force"})
+    if (nodal_forces_ && parameters_.has(force))
+      result.push_back({force, dimension, order_, 0, "m/s^2", true});
+  return result;
 }
 
 void PorousSolid::build(FieldSetup& setup) const {
   setup.publish("density", flow_.density);
   setup.publish("viscosity", flow_.viscosity);
+  const Mat<3, 3, double> k =
+      setup.dimension() == 2 ? permeability<2>(parameters_) : permeability<3>(parameters_);
+  setup.publish("pores", std::make_shared<LawOf<PoresFormula>>(PoresFormula{flow_, k.c}));
   add_balances(setup);
   if (order_ == 1) add_stabilisation(setup);
   add_loads(setup);
@@ -104,20 +112,32 @@ void PorousSolid::add_stabilisation(FieldSetup& setup) const {
 }
 
 void PorousSolid::add_loads(FieldSetup& setup) const {
-  if (parameters_.has("body_force")) {
-    if (density_ == 0)
-      throw Error(parameters_.where("body_force"),
-                  "a body force per mass acts on a body without mass: give a `density`");
-    setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), density_}, 1),
-                        {"displacement"});
-  }
-  if (!parameters_.has("fluid_body_force")) return;
-  if (flow_.density == 0)
-    throw Error(parameters_.where("fluid_body_force"),
-                "a body force per mass acts on a fluid without mass: give a `fluid_density`");
-  setup.add_cell_term(
-      make_term(FluidLoad{parameters_.vector_expression("fluid_body_force"), flow_.density}, 1),
-      {"displacement", "velocity"});
+  const auto add = [&](const std::string& key, double density, const std::string& missing, const auto& term,
+                       const auto& nodal, const std::vector<std::string>& operands) {
+    if (!parameters_.has(key)) return;
+    if (density == 0)
+      throw Error(parameters_.where(key),
+                  "a force per mass acts on something without mass: give a `" + missing + "`");
+    const std::vector<Expression>& force = parameters_.vector_expression(key);
+    if (!nodal_forces_) {
+      setup.add_cell_term(term(force), operands);
+      return;
+    }
+    for (int d = 0; d < setup.dimension(); ++d) setup.give(key, d, force[d]);
+    std::vector<std::string> with_force = operands;
+    with_force.push_back(key);
+    setup.add_cell_term(nodal, with_force);
+  };
+  add("body_force", density_, "density",
+      [&](const std::vector<Expression>& force) {
+        return make_term(Load{force, density_}, 1);
+      },
+      make_term(NodalLoad{density_}, 1), {"displacement"});
+  add("fluid_body_force", flow_.density, "fluid_density",
+      [&](const std::vector<Expression>& force) {
+        return make_term(FluidLoad{force, flow_.density}, 1);
+      },
+      make_term(NodalFluidLoad{flow_.density}, 1), {"displacement", "velocity"});
 }
 
 void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,

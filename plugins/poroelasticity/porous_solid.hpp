@@ -30,6 +30,7 @@ class PorousSolid final : public Physics {
   PotentialPointer skeleton_;
   PoreFlow flow_;
   double density_;  ///< averaged, of the skeleton
+  bool nodal_forces_;
   int order_;
 };
 

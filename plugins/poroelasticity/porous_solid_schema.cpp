@@ -80,6 +80,8 @@ Schema PorousSolid::schema() {
   s.object("stabilisation", "Factors of the interior penalty", stabilisation).otherwise("{}");
   s.vector_expression("body_force", "On the mixture, per mass of the skeleton").unit("m/s^2").optional();
   s.vector_expression("fluid_body_force", "On the fluid in the pores, per mass").unit("m/s^2").optional();
+  s.boolean("interpolate_body_force", "Take both at the nodes and interpolate, instead of at every point")
+      .otherwise("false");
   s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction and drained",
          boundary_schema())
       .otherwise("[]");

@@ -98,7 +98,7 @@ void Solid::add_body_terms(FieldSetup& setup) const {
     setup.add_cell_term(make_term(MixedInternalForce{material_}), mixed_unknowns);
   else
     setup.add_cell_term(make_term(InternalForce{{material_}}), displacement_only);
-  if (!mixed_) setup.publish(std::make_shared<LawStress<Piola>>(Piola{material_}));
+  if (!mixed_) setup.publish("stress", std::make_shared<LawStress<Piola>>(Piola{material_}));
   if (density_ > 0) setup.add_cell_term(make_term(Inertia{density_}), displacement_only);
   if (!parameters_.has("body_force")) return;
   if (density_ == 0)

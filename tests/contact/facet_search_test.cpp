@@ -91,3 +91,13 @@ TEST_CASE("no ray slips through between facets") {
     CHECK(hit->gap == Approx(2 - 1 / (std::abs(n[0]) + std::abs(n[1]) + std::abs(n[2]))).epsilon(1e-9));
   }
 }
+
+TEST_CASE("a surface encloses the points that lie deep inside of it") {
+  const FacetSearch ring(polygon(40, 1));
+  const double direction[] = {0.6, 0.8}, middle[] = {0.1, -0.2}, edge[] = {0.999, 0.0},
+               outside[] = {-1.3, 0.2};
+  CHECK(ring.encloses(middle, direction, 0.1));
+  CHECK_FALSE(ring.encloses(edge, direction, 0.1));
+  CHECK_FALSE(ring.encloses(outside, direction, 0.1));
+  CHECK_FALSE(ring.encloses(middle, direction, 0.1, [](int) { return true; }));
+}

@@ -65,7 +65,7 @@ std::vector<double> join(std::initializer_list<std::vector<double>> lists) {
   return all;
 }
 
-std::shared_ptr<const StressLaw> law() {
+std::shared_ptr<const Law> law() {
   return std::make_shared<LawStress<solid::Piola>>(solid::Piola{test::material("neo_hookean", 90, 0.2)});
 }
 
@@ -73,7 +73,7 @@ std::shared_ptr<const StressLaw> law() {
 
 TEST_CASE("at the exact state the fluid's form leaves each side its own traction") {
   const State s;
-  const FluidSided kernel{{1.3, mu, true}, s.jumps(), {0}, 1, 35, 35};
+  const FluidSided kernel{{1.3, mu, true}, s.jumps(), {0}, {1, 35, 35}};
   const auto inputs = join(
       {s.fluid("velocity"), s.fluid("velocity_gradient"), s.fluid("pressure"), s.body("displacement_rate")});
   const auto r = s.residual(*make_term(kernel), inputs);  // dv, grad dv, dp, du
@@ -115,7 +115,7 @@ TEST_CASE("the penalties resist a difference of velocities on both sides alike")
   }
   // Without convection phi of (3.27) is known by hand.
   const auto fluid =
-      s.residual(*make_term(FluidSided{{1.3, mu, false}, s.jumps(), {0}, 0, 35, 35}),
+      s.residual(*make_term(FluidSided{{1.3, mu, false}, s.jumps(), {0}, {0, 35, 35}}),
                  join({v, s.fluid("velocity_gradient"), s.fluid("pressure"), s.body("displacement_rate")}));
   const double phi = (mu + sizes * sizes * 1.3 / (12 * theta * time_step)) / sizes;
   for (int i = 0; i < 2; ++i) {

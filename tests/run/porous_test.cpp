@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// configs/poro/squeezed_column.yaml: what leaves the pores has left the body.
+// Porous bodies, alone and in a flow: what leaves the pores has left the body.
+#include <algorithm>
 #include <cmath>
 
 #include "cli/run_command.hpp"
@@ -7,17 +8,66 @@
 
 using namespace seam_cli_test;
 
-TEST_CASE("a porous body loses in each step what flows out of it, at any strain") {
-  const Folder folder;
-  const Result run = seam("verify " SEAM_SOURCE_DIR "/configs/poro/squeezed_column.yaml --quiet --folder " +
-                          folder.path.string());
+namespace {
+
+/// The series of a run of configs/poro/<scene>.yaml, whose checks hold.
+std::string series_of(const std::string& scene, const Folder& folder, const std::string& more = "") {
+  const Result run =
+      seam("run " SEAM_SOURCE_DIR "/configs/poro/" + scene + ".yaml --quiet --no-picture --folder " +
+           folder.path.string() + " --set output.fields=false " + more);
   INFO(run.output);
   REQUIRE(run.code == 0);
-  const std::string series = folder.read("series.csv");
+  return folder.read("series.csv");
+}
+
+}  // namespace
+
+TEST_CASE("a porous body loses in each step what flows out of it, at any strain") {
+  const Folder folder;
+  const std::string series = series_of("squeezed_column", folder);
   const std::vector<double> time = column(series, "time"), volume = column(series, "column.fluid_volume"),
                             outflow = column(series, "outflow");
   REQUIRE(time.size() > 50);
   CHECK(volume.back() < 0.4 * volume.front());
   for (std::size_t k = 1; k < time.size(); ++k)
     CHECK(std::abs(volume[k - 1] - volume[k] - (time[k] - time[k - 1]) * outflow[k]) < 1e-9 * volume.front());
+}
+
+TEST_CASE("a filter that bends in a flow stores in each step what seeps into it") {
+  const Folder folder;
+  const std::string series = series_of("filter", folder);
+  const std::vector<double> time = column(series, "time"), volume = column(series, "filter.fluid_volume"),
+                            seepage = column(series, "face.seepage"), missing = column(series, "missing");
+  REQUIRE(time.size() > 25);
+  CHECK(*std::max_element(volume.begin(), volume.end()) > 1.02 * volume.front());
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    CHECK(std::abs(volume[k] - volume[k - 1] - (time[k] - time[k - 1]) * seepage[k]) < 1e-8);
+    CHECK(std::abs(missing[k]) < 1e-8);
+  }
+}
+
+TEST_CASE("fluid slips along a porous bed after Beavers and Joseph, and after Saffmann") {
+  const std::string saffmann = "--set coupling.0.slip_against=skeleton ";
+  for (const std::string tangential : {"nitsche", "substitution"}) {
+    const std::string how = "--set coupling.0.tangential=" + tangential + " --set checks=[] ";
+    const Folder first, second;
+    CHECK(column(series_of("beavers_joseph", first, how), "slip").back() ==
+          Approx(0.0545454545).epsilon(5e-3));
+    CHECK(column(series_of("beavers_joseph", second, how + saffmann), "slip").back() ==
+          Approx(0.0454545455).epsilon(5e-3));
+  }
+}
+
+TEST_CASE("no slip along a porous bed is met whatever its permeability") {
+  for (const std::string permeability : {"[1e-2]", "[1e-10]", "[1e-19]"}) {
+    const Folder folder;
+    const std::string series =
+        series_of("beavers_joseph", folder,
+                  "--set coupling.0.alpha=.inf --set coupling.0.slip_against=skeleton --set "
+                  "checks=[] --set fields.bed.permeability=" +
+                      permeability);
+    // Between two walls: G/(8 mu) in the middle.
+    CHECK(std::abs(column(series, "slip").back()) < 1e-4);
+    CHECK(column(series, "fastest").back() == Approx(0.5 * 0.4454545 * (1 - 0.4454545)).epsilon(5e-3));
+  }
 }

@@ -65,3 +65,18 @@ TEST_CASE("a damaged restart point is passed over") {
   CHECK_THAT(result.output, Catch::Contains("00000020.restart") && Catch::Contains("damaged"));
   CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
 }
+
+TEST_CASE("a run continues whose series are infinite so far") {
+  const Folder folder;
+  const auto ring = [&](const std::string& where, const std::string& more) {
+    return "run " SEAM_SOURCE_DIR
+           "/configs/contact/pressed_ring.yaml --set output.restart.every=1 --quiet "
+           "--no-picture --folder " +
+           (folder.path / where).string() + more;
+  };
+  REQUIRE(seam(ring("whole", " --stop-after 3")).code == 0);
+  REQUIRE(seam(ring("parts", " --stop-after 2")).code == 0);
+  REQUIRE(folder.read("parts/series.csv").find("inf") != std::string::npos);
+  REQUIRE(seam(ring("parts", " --resume --stop-after 1")).code == 0);
+  CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
+}

@@ -85,11 +85,34 @@ EmbeddedSurface::Key EmbeddedSurface::key_of(const Element& e) {
   return {e.outside.cell, e.outside.part, e.group, e.other_group, e.own_edge_group, e.other_edge_group};
 }
 
+/// In the plane: where on a wet part of a facet the facet opposite changes.
+/// @param moving appended: those that follow a vertex opposite. Where the opposite surface begins or ends
+/// nothing depends on the very place, and of the two sides only one knows that surface: those stay.
+std::vector<double> EmbeddedSurface::divide(int facet, double from, double to, const OppositePoints& opposite,
+                                            std::vector<OppositePoints::Break>& moving) {
+  std::vector<double> places;
+  bool was_opposite = false;
+  for (const OppositePoints::Stretch& stretch : opposite.stretches(facet, from, to)) {
+    const double middle = 0.5 * (stretch.from.share + stretch.to.share);
+    const bool is_opposite = opposite.find(facet, &middle).has_value();
+    if (stretch.from.vertex >= 0) {
+      places.push_back(stretch.from.share);
+      if (was_opposite && is_opposite) moving.push_back(stretch.from);
+    }
+    was_opposite = is_opposite;
+  }
+  return places;
+}
+
 void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite) {
   const auto dim = static_cast<std::size_t>(dimension()), moves = dim * dim;
   InterfaceRule rule;
   InterfaceMotion motion;
-  field_->cut()->interface_rule(cell, degree_, rule, &motion, part);
+  std::map<int, std::vector<OppositePoints::Break>> inner;  // by facet
+  field_->cut()->interface_rule(
+      cell, degree_, rule, &motion, part, [&](int body, int facet, double from, double to) {
+        return body == number_ ? divide(facet, from, to, opposite, inner[facet]) : std::vector<double>{};
+      });
   std::map<std::pair<int, int>, std::pair<Part, int>> place;  // of an element, by the groups of its points
   for (int q = 0; q < rule.count(); ++q) {
     if (rule.body[q] != number_) continue;
@@ -139,26 +162,39 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
     append_rows(&motion.relative_weight[at * moves], 1, moves, wide, moving.relative_weight);
     std::vector<double> slide;
     append_rows(&motion.facet_reference[at * (dim - 1) * moves], dim - 1, moves, wide, slide);
-    if (hit && dim == 2) add_edge_motion(*hit, &rule.span[2 * at], opposite, slide, moving);
+    if (hit && dim == 2)
+      add_edge_motion(*hit, &rule.span[2 * at], &motion.span[8 * at], inner[facet], opposite, slide, moving);
     own_->motion_to_cell(facet, slide.data(), static_cast<int>(wide), moving.reference[1]);
     if (hit) add_partner(element, *hit, pair_motion(hit->pair, static_cast<int>(wide), slide));
   }
 }
 
-/// In the plane: the cut lets a piece that ends on another body keep its share of the facet; add how the end
-/// follows that body. @param span of the last point added
+/// In the plane: points keep their share of a piece, and the cut lets one that ends on another body keep its
+/// place on the facet. Adds how such ends follow that body, and how inner ends follow the vertices opposite.
 void EmbeddedSurface::add_edge_motion(const OppositePoints::Hit& hit, const double* span,
+                                      const double* span_motion,
+                                      const std::vector<OppositePoints::Break>& inner,
                                       const OppositePoints& opposite, std::vector<double>& slide,
                                       PointMotion& motion) {
-  const int facet = hit.own_facet;
-  const auto ends_there = [&](double share) {
-    const OppositePoints::Break end = opposite.end_at(facet, share);
+  const auto end_at = [&](double share) {
+    const auto found = std::ranges::find_if(
+        inner, [&](const OppositePoints::Break& b) { return std::abs(b.share - share) < hair; });
+    if (found != inner.end()) return *found;
+    const OppositePoints::Break end = opposite.end_at(hit.own_facet, share);
     return end.facet == hit.facet ? end : OppositePoints::Break{share};
   };
-  const OppositePoints::Stretch stretch{ends_there(span[0]), ends_there(span[1])};
-  if (stretch.from.facet < 0 && stretch.to.facet < 0) return;
+  const OppositePoints::Stretch stretch{end_at(span[0]), end_at(span[1])};
+  const auto follows = [](const OppositePoints::Break& b) { return b.facet >= 0 || b.vertex >= 0; };
+  if (!follows(stretch.from) && !follows(stretch.to)) return;
   std::vector<double> more, growth;
   opposite.stretch_motion(hit, stretch, 8, more, growth);
+  const double place = (hit.pair.on_own[0] - stretch.from.share) / stretch.length();
+  for (int m = 0; m < 4; ++m) {
+    const double from = stretch.from.vertex >= 0 ? span_motion[m] : 0.0;
+    const double to = stretch.to.vertex >= 0 ? span_motion[4 + m] : 0.0;
+    more[m] -= (1 - place) * from + place * to;
+    growth[m] -= (to - from) / stretch.length();
+  }
   const Vector along = hit.pair.own[1] - hit.pair.own[0];
   double* position = motion.position.data() + motion.position.size() - 16;
   double* weight = motion.relative_weight.data() + motion.relative_weight.size() - 8;
@@ -205,6 +241,15 @@ void EmbeddedSurface::add_closed(const OppositePoints& opposite) {
   for (const ClosedPoint& point : points) add_closed_point(point, edges, opposite);
 }
 
+/// Bodies may overlap a little, and a solution in which they have passed through each other solves all
+/// equations: no point has an opposite one any more. A long step gets there in few iterations.
+void EmbeddedSurface::refuse_passed(int facet, const double* on_facet, const OppositePoints& opposite) const {
+  if (!opposite.has_passed(facet, on_facet)) return;
+  throw StepRefused(fmt::format(
+      "the surface of '{}' has passed through that of '{}' by more than {:.3g}, the interface's depth",
+      own_->body().name(), other_->body().name(), window_.depth));
+}
+
 /// Appends the points of a facet's closed part that have an opposite one.
 void EmbeddedSurface::find_closed(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
                                   std::vector<ClosedPoint>& points) const {
@@ -218,6 +263,8 @@ void EmbeddedSurface::find_closed(int facet, const std::vector<Wet>& wet, const 
           const double share = stretch.from.share + rule_->points[q] * stretch.length();
           if (const auto hit = opposite.find(facet, &share))
             points.push_back({*hit, stretch, area * stretch.length() * rule_->weights[q]});
+          else
+            refuse_passed(facet, &share, opposite);
         }
     return;
   }
@@ -230,7 +277,9 @@ void EmbeddedSurface::find_closed(int facet, const std::vector<Wet>& wet, const 
   const auto first = static_cast<std::ptrdiff_t>(points.size());
   double sum = 0;
   for (int q = 0; q < rule_->count(); ++q) {
-    const auto hit = opposite.find(facet, &rule_->points[static_cast<std::size_t>(q) * 2]);
+    const double* point = &rule_->points[static_cast<std::size_t>(q) * 2];
+    const auto hit = opposite.find(facet, point);
+    if (!hit && all) refuse_passed(facet, point, opposite);
     if (!hit || (!all && hit->pair.gap >= 0)) continue;
     points.push_back({*hit, {{0}, {1}}, area * rule_->weights[q]});
     sum += points.back().weight;

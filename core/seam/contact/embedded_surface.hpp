@@ -41,6 +41,7 @@ class EmbeddedSurface {
   [[nodiscard]] const std::vector<Element>& elements(Part part) const { return elements_[part]; }
 
   /// Finds all points anew. Collective. @return true when elements are others than before
+  /// @throws StepRefused when the surface has passed through the other one, so that no contact is seen
   bool follow();
 
   [[nodiscard]] Field& field() const { return *field_; }
@@ -68,15 +69,20 @@ class EmbeddedSurface {
     int outside_cell, outside_part, group, other_group, own_edge_group, other_edge_group;
     friend bool operator==(const Key&, const Key&) = default;
   };
+  static std::vector<double> divide(int facet, double from, double to, const OppositePoints& opposite,
+                                    std::vector<OppositePoints::Break>& moving);
   void add_wet(int cell, int part, const OppositePoints& opposite);
   void add_closed(const OppositePoints& opposite);
   void find_closed(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
                    std::vector<ClosedPoint>& points) const;
+  void refuse_passed(int facet, const double* on_facet, const OppositePoints& opposite) const;
   void add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
                         const OppositePoints& opposite);
-  static void add_edge_motion(const OppositePoints::Hit& hit, const double* span,
-                              const OppositePoints& opposite, std::vector<double>& slide,
-                              PointMotion& motion);
+  /// Of the last point added. @param span its two ends @param span_motion [2][move], where they keep their
+  /// share of the piece @param inner ends that are no ends of the piece
+  static void add_edge_motion(const OppositePoints::Hit& hit, const double* span, const double* span_motion,
+                              const std::vector<OppositePoints::Break>& inner, const OppositePoints& opposite,
+                              std::vector<double>& slide, PointMotion& motion);
   void add_edge(Element& element, const Element& source, std::size_t point) const;
   void add_partner(Element& element, const OppositePoints::Hit& hit, const PairMotion& change) const;
   [[nodiscard]] static Key key_of(const Element& element);

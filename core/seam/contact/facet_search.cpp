@@ -34,26 +34,43 @@ Vector vertex(const Surface& surface, int facet, int k) {
   return x;
 }
 
-std::optional<FacetSearch::Hit> meet_segment(const Surface& surface, int facet, const Vector& x,
-                                             const Vector& n) {
+/// Where the line x + s n meets a facet. @param cosine result: of the angle between its outward normal and -n
+std::optional<FacetSearch::Hit> cross_segment(const Surface& surface, int facet, const Vector& x,
+                                              const Vector& n, double& cosine) {
   const Vector b = vertex(surface, facet, 0), t = vertex(surface, facet, 1) - b, r = x - b;
   const double against = cross(t, n)[2];  // the outward normal times -n times the length
-  if (against < facing * std::sqrt(dot(t, t))) return std::nullopt;
+  cosine = against / std::sqrt(dot(t, t));
   const double share = cross(r, n)[2] / against;
   if (share < -slack || share > 1 + slack) return std::nullopt;
   return FacetSearch::Hit{facet, {share, 0}, dot(share * t - r, n)};
 }
 
-std::optional<FacetSearch::Hit> meet_triangle(const Surface& surface, int facet, const Vector& x,
-                                              const Vector& n) {
+std::optional<FacetSearch::Hit> cross_triangle(const Surface& surface, int facet, const Vector& x,
+                                               const Vector& n, double& cosine) {
   const Vector b = vertex(surface, facet, 0), first_edge = vertex(surface, facet, 1) - b,
                second_edge = vertex(surface, facet, 2) - b, area = cross(first_edge, second_edge), r = x - b,
                across = cross(n, r);
   const double against = -dot(area, n);
-  if (against < facing * std::sqrt(dot(area, area))) return std::nullopt;
+  cosine = against / std::sqrt(dot(area, area));
   const double first = -dot(second_edge, across) / against, second = dot(first_edge, across) / against;
   if (first < -slack || second < -slack || first + second > 1 + slack) return std::nullopt;
   return FacetSearch::Hit{facet, {first, second}, dot(first * first_edge + second * second_edge - r, n)};
+}
+
+std::optional<FacetSearch::Hit> cross_facet(const Surface& surface, int facet, const Vector& x,
+                                            const Vector& n, double& cosine) {
+  return (surface.dimension == 2 ? cross_segment : cross_triangle)(surface, facet, x, n, cosine);
+}
+
+Box box_along(const Vector& x, const Vector& direction, double from, double to) {
+  const double margin = slack * (to - from);
+  Vector low{}, high{};
+  for (int d = 0; d < 3; ++d) {
+    const double back = x[d] + from * direction[d], front = x[d] + to * direction[d];
+    low[d] = std::min(back, front) - margin;
+    high[d] = std::max(back, front) + margin;
+  }
+  return {Corner(low[0], low[1], low[2]), Corner(high[0], high[1], high[2])};
 }
 
 }  // namespace
@@ -105,19 +122,12 @@ std::optional<FacetSearch::Hit> FacetSearch::find(const double* x, const double*
   Vector point{}, along{};
   std::copy_n(x, dim, point.begin());
   std::copy_n(direction, dim, along.begin());
-  const double margin = slack * (depth + reach);
-  Vector low{}, high{};
-  for (int d = 0; d < dim; ++d) {
-    const double back = x[d] - depth * direction[d], front = x[d] + reach * direction[d];
-    low[d] = std::min(back, front) - margin;
-    high[d] = std::max(back, front) + margin;
-  }
-  const Box box(Corner(low[0], low[1], low[2]), Corner(high[0], high[1], high[2]));
   std::optional<Hit> best;
-  const auto query = bg::index::intersects(box);
+  const auto query = bg::index::intersects(box_along(point, along, -depth, reach));
   for (auto entry = tree_->index.qbegin(query); entry != tree_->index.qend(); ++entry) {
-    const auto hit = (dim == 2 ? meet_segment : meet_triangle)(surface_, entry->second, point, along);
-    if (!hit || hit->gap < -depth || hit->gap > reach) continue;
+    double cosine = 0;
+    const auto hit = cross_facet(surface_, entry->second, point, along, cosine);
+    if (!hit || cosine < facing || hit->gap < -depth || hit->gap > reach) continue;
     // Of two that share the border on which the line lies, the first: the tree's order says nothing.
     if (best && (std::abs(hit->gap) > std::abs(best->gap) ||
                  (std::abs(hit->gap) == std::abs(best->gap) && hit->facet > best->facet)))
@@ -126,6 +136,33 @@ std::optional<FacetSearch::Hit> FacetSearch::find(const double* x, const double*
     best = hit;
   }
   return best;
+}
+
+bool FacetSearch::encloses(const double* x, const double* direction, double margin,
+                           const Exclude& exclude) const {
+  const int dim = surface_.dimension;
+  Vector point{}, along{};
+  std::copy_n(x, dim, point.begin());
+  std::copy_n(direction, dim, along.begin());
+  const auto counts = [&](const Entry& entry) { return !exclude || !exclude(entry.second); };
+  const Box near(Corner(point[0] - margin, point[1] - margin, point[2] - margin),
+                 Corner(point[0] + margin, point[1] + margin, point[2] + margin));
+  const auto around = bg::index::intersects(near) && bg::index::satisfies(counts);
+  if (tree_->index.qbegin(around) != tree_->index.qend()) return false;
+  const Box all = tree_->index.bounds();
+  const Corner &low = all.min_corner(), &high = all.max_corner();
+  const double far =
+      std::hypot(high.get<0>() - low.get<0>(), high.get<1>() - low.get<1>(), high.get<2>() - low.get<2>());
+  double nearest = far, facing_away = 0;
+  const auto ahead = bg::index::intersects(box_along(point, along, 0, far)) && bg::index::satisfies(counts);
+  for (auto entry = tree_->index.qbegin(ahead); entry != tree_->index.qend(); ++entry) {
+    double cosine = 0;
+    const auto hit = cross_facet(surface_, entry->second, point, along, cosine);
+    if (!hit || cosine == 0 || hit->gap < 0 || hit->gap >= nearest) continue;
+    nearest = hit->gap;
+    facing_away = -cosine;
+  }
+  return facing_away > 0;
 }
 
 }  // namespace seam

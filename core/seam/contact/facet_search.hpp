@@ -36,6 +36,10 @@ class FacetSearch {
   /// Appends the facets whose outside faces a direction and whose boxes meet a box. @param low, high [3]
   void find_near(const double* low, const double* high, const double* direction,
                  std::vector<int>& facets) const;
+  /// True where a point lies inside the surface and further than `margin`, m, from it: the first facet along
+  /// a direction is met from within, in any direction if the surface is closed.
+  [[nodiscard]] bool encloses(const double* x, const double* direction, double margin,
+                              const Exclude& exclude = {}) const;
   [[nodiscard]] const Surface& surface() const { return surface_; }
 
  private:

@@ -20,6 +20,12 @@ std::array<Vector, 3> vertices(const Surface& surface, int facet) {
   return result;
 }
 
+Vector point_on(int dim, const std::array<Vector, 3>& vertices, const double* on_facet) {
+  Vector x = vertices[0];
+  for (int k = 1; k < dim; ++k) x = x + on_facet[k - 1] * (vertices[k] - vertices[0]);
+  return x;
+}
+
 }  // namespace
 
 OppositePoints::OppositePoints(const BodySurface& own, const BodySurface* other, Surface opposite,
@@ -50,6 +56,16 @@ bool OppositePoints::is_own_neighbourhood(int facet, int other_facet) const {
   return std::ranges::find_first_of(first, second) != first.end();
 }
 
+FacetSearch::Exclude OppositePoints::neighbours(int facet) const {
+  if (!is_itself_) return {};
+  return [this, facet](int other_facet) { return is_own_neighbourhood(facet, other_facet); };
+}
+
+bool OppositePoints::has_passed(int facet, const double* on_facet) const {
+  const Vector x = point_on(surface_.dimension, own_vertices(facet), on_facet);
+  return search_.encloses(x.data(), normal(facet).data(), window_.depth, neighbours(facet));
+}
+
 std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double* on_facet) const {
   const int dim = surface_.dimension;
   Hit hit{facet, -1, {}};
@@ -57,12 +73,9 @@ std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double*
   pair.dimension = dim;
   pair.own = own_vertices(facet);
   std::copy_n(on_facet, dim - 1, pair.on_own.begin());
-  Vector x = pair.own[0];
-  for (int k = 1; k < dim; ++k) x = x + pair.on_own[k - 1] * (pair.own[k] - pair.own[0]);
-  const Vector direction = normal(facet);
+  const Vector x = point_on(dim, pair.own, on_facet);
   const auto found =
-      search_.find(x.data(), direction.data(), window_.depth, window_.reach,
-                   [&](int other_facet) { return is_itself_ && is_own_neighbourhood(facet, other_facet); });
+      search_.find(x.data(), normal(facet).data(), window_.depth, window_.reach, neighbours(facet));
   if (!found) return std::nullopt;
   hit.facet = found->facet;
   pair.opposite = vertices(search_.surface(), found->facet);

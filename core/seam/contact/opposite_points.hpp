@@ -31,6 +31,9 @@ class OppositePoints {
   };
   /// @param on_facet the facet's own coordinates, [dimension - 1]
   [[nodiscard]] std::optional<Hit> find(int facet, const double* on_facet) const;
+  /// Whether a point has no opposite one for the reason that it lies inside of the other body, further than
+  /// the window looks back.
+  [[nodiscard]] bool has_passed(int facet, const double* on_facet) const;
   /// Outward, of length 1.
   [[nodiscard]] cutting::Vector normal(int facet) const;
   /// m^(d-1), twice that in space.
@@ -59,6 +62,7 @@ class OppositePoints {
  private:
   [[nodiscard]] std::array<cutting::Vector, 3> own_vertices(int facet) const;
   [[nodiscard]] bool is_own_neighbourhood(int facet, int other_facet) const;
+  [[nodiscard]] FacetSearch::Exclude neighbours(int facet) const;
   const BodySurface* own_;
   bool is_itself_;
   Surface surface_;  ///< own

@@ -117,6 +117,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
       unite_in_cell(input, coverage.windings(), CellMap(*mesh_, c.cell).affine(), c);
     else
       find_wet_faces(input, coverage.count(), c);
+    close_seams(g.outline, c);
     measure(g.outline, c);
   }
   settle_slivers(g.outline, g.cells, state_);

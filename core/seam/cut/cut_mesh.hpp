@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <span>
 #include <utility>
@@ -34,9 +35,14 @@ struct InterfaceRule : CutRule {
   std::vector<int> body, facet;         ///< [point]
   std::vector<double> facet_reference;  ///< [point][dimension - 1], the facet's own coordinates: vertex 0 is
                                         ///< the origin, vertices 1 and 2 the unit points
-  /// In the plane: where on the facet the point's piece begins and ends, [point][2].
+  /// In the plane: where on the facet the point's piece, or the part of it that has its own rule, begins and
+  /// ends, [point][2].
   std::vector<double> span;
 };
+
+/// Where between two places on a facet of a body what is integrated there has kinks: ascending, in the
+/// facet's own coordinate.
+using PieceBreaks = std::function<std::vector<double>(int body, int facet, double from, double to)>;
 
 /// The boundary of the wet part of a cell. In the plane: its outlines, counter-clockwise, holes clockwise.
 /// In space: the faces of its polyhedron, counter-clockwise seen from outside.
@@ -97,8 +103,9 @@ class CutMesh {
   void volume_rule(int cell, int degree, CutRule& rule, int part = all_parts) const;
   /// Rule for the interface in a cut cell, exact for polynomials of total degree `degree` on each piece.
   /// @param motion where not null: how the rule changes as facets move
+  /// @param breaks in the plane: where to divide pieces
   void interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion = nullptr,
-                      int part = all_parts) const;
+                      int part = all_parts, const PieceBreaks& breaks = {}) const;
   /// Rule for the wet part of one face of a cut cell; empty where the face is dry, or the cell is a
   /// body's.
   void face_rule(int cell, int face, int degree, CutRule& rule, int part = all_parts) const;

@@ -14,6 +14,7 @@ struct InterfaceMotion {
   std::vector<double> normal;           ///< [point][dimension][move], 1/m
   std::vector<double> relative_weight;  ///< [point][move], 1/m
   std::vector<double> facet_reference;  ///< [point][dimension - 1][move], 1/m
+  std::vector<double> span;             ///< in the plane: of InterfaceRule::span, [point][2][move], 1/m
 };
 
 }  // namespace seam

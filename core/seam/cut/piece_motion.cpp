@@ -178,4 +178,16 @@ void PieceMotion::append(const std::array<int, 3>& corners, const std::array<dou
       for (int i = 0; i < dim_; ++i) normal[i * moves + k * dim_ + c] = -gradient_[k][i] * normal_[c];
 }
 
+void PieceMotion::append_share(double share, std::vector<double>& values) const {
+  std::array<double, 4> sum{};
+  for (int j = 0; j < 2; ++j) {
+    const auto at_corner = barycentric(corner_[j]);
+    for (int k = 0; k < 2; ++k)
+      for (int c = 0; c < 2; ++c)
+        sum[k * 2 + c] += (j == 0 ? 1 - share : share) * at_corner[k] *
+                          (gradient_[1][0] * slide_[j][0][c] + gradient_[1][1] * slide_[j][1][c]);
+  }
+  values.insert(values.end(), sum.begin(), sum.end());
+}
+
 }  // namespace seam::cutting

@@ -20,6 +20,9 @@ class PieceMotion {
   /// @param share of the three corners in the point
   void append(const std::array<int, 3>& corners, const std::array<double, 3>& share,
               InterfaceMotion& motion) const;
+  /// In the plane: appends the derivatives of the place on the facet of a point that keeps its share of the
+  /// piece.
+  void append_share(double share, std::vector<double>& values) const;
 
  private:
   using Matrix = std::array<Vector, 3>;  ///< rows

@@ -107,21 +107,24 @@ void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule, int part)
     face_to_cell(shape, face, &fitted.points()[q * (dim - 1)], &rule.reference[q * dim]);
 }
 
-void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion,
-                             int part) const {
+void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, InterfaceMotion* motion, int part,
+                             const PieceBreaks& breaks) const {
   const CutCell& cut = geometry_->at(cell, part);
   const int dim = mesh_->dimension();
   const CellMap map(*mesh_, cell);
   const Quadrature& base = quadrature(dim == 2 ? CellType::segment : CellType::triangle, degree);
   clear(rule);
   if (motion) *motion = {};
+  const auto place = [&](const Piece& piece, const Vector& position) {
+    return on_facet(geometry_->bodies[piece.body], piece.facet, position);
+  };
   const auto add = [&](const Piece& piece, const Vector& position, double weight) {
     Vector reference = map.to_reference(position), x = position;
     if (piece.handed_over) {
       reference = into_cell(mesh_->type(), reference);
       x = map.to_space(reference);
     }
-    const auto s = on_facet(geometry_->bodies[piece.body], piece.facet, position);
+    const auto s = place(piece, position);
     append(dim, reference, rule.reference);
     append(dim, x, rule.position);
     append(dim, piece.normal, rule.normal);
@@ -134,19 +137,35 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
     const Vector* x = &cut.points[piece.first];
     std::optional<PieceMotion> moving;
     if (motion) moving.emplace(geometry_->outline, cut, piece, geometry_->bodies[piece.body]);
-    for (int k = 1; k + (dim == 3 ? 1 : 0) < piece.count; ++k) {
-      const Vector &a = x[k], &b = x[dim == 3 ? k + 1 : k];
+    if (dim == 2) {
+      const double area = -piece.scale * dot(vector_area(dim, x[0], x[1], x[1]), piece.normal);
+      if (area == 0) continue;
+      const double from = place(piece, x[0])[0], to = place(piece, x[1])[0];
+      std::vector<double> ends{0};  // shares of the piece
+      if (breaks && !piece.handed_over)
+        for (const double at : breaks(piece.body, piece.facet, from, to))
+          ends.push_back((at - from) / (to - from));
+      ends.push_back(1);
+      for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+        for (int q = 0; q < base.count(); ++q) {
+          const double s = ends[k] + base.points[q] * (ends[k + 1] - ends[k]);
+          add(piece, x[0] + s * (x[1] - x[0]), area * base.weights[q] * (ends[k + 1] - ends[k]));
+          for (const double end : {ends[k], ends[k + 1]}) {
+            rule.span.push_back(from + end * (to - from));
+            if (moving) moving->append_share(end, motion->span);
+          }
+          if (moving) moving->append({0, 1, 1}, {1 - s, s, 0}, *motion);
+        }
+      continue;
+    }
+    for (int k = 1; k + 1 < piece.count; ++k) {
+      const Vector &a = x[k], &b = x[k + 1];
       const double area = -piece.scale * dot(vector_area(dim, x[0], a, b), piece.normal);
       if (area == 0) continue;
       for (int q = 0; q < base.count(); ++q) {
         const double* s = &base.points[q * base.dimension];
-        const double second = dim == 3 ? s[1] : 0.0;
-        const Vector position = x[0] + s[0] * (a - x[0]) + second * (b - x[0]);
-        if (moving) moving->append({0, k, dim == 3 ? k + 1 : k}, {1 - s[0] - second, s[0], second}, *motion);
-        add(piece, position, area * base.weights[q] * (dim == 3 ? 2 : 1));
-        if (dim == 2)
-          for (const Vector& end : {x[0], x[1]})
-            rule.span.push_back(on_facet(geometry_->bodies[piece.body], piece.facet, end)[0]);
+        if (moving) moving->append({0, k, k + 1}, {1 - s[0] - s[1], s[0], s[1]}, *motion);
+        add(piece, x[0] + s[0] * (a - x[0]) + s[1] * (b - x[0]), area * base.weights[q] * 2);
       }
     }
   }

@@ -13,7 +13,7 @@
 namespace seam {
 
 class CutMesh;
-class StressLaw;
+class Law;
 
 /// What a physics declares of one of its unknowns.
 struct Unknown {
@@ -91,10 +91,12 @@ class Field {
   /// @throws Error listing those it has
   [[nodiscard]] double constant(const std::string& name) const;
   void set_constant(const std::string& name, double value) { constants_[name] = value; }
-  /// The law by which the physics turns the gradient of its displacement into stress; null when it makes none
-  /// known.
-  [[nodiscard]] const std::shared_ptr<const StressLaw>& stress_law() const { return stress_law_; }
-  void set_stress_law(std::shared_ptr<const StressLaw> law) { stress_law_ = std::move(law); }
+  /// A law that the field's physics makes known, such as "stress"; null when it does not.
+  [[nodiscard]] std::shared_ptr<const Law> law(const std::string& name) const {
+    const auto found = laws_.find(name);
+    return found == laws_.end() ? nullptr : found->second;
+  }
+  void set_law(const std::string& name, std::shared_ptr<const Law> law) { laws_[name] = std::move(law); }
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
@@ -144,7 +146,7 @@ class Field {
   std::vector<Unknown> unknowns_;
   std::vector<Place> places_;
   std::map<std::string, double> constants_;
-  std::shared_ptr<const StressLaw> stress_law_;
+  std::map<std::string, std::shared_ptr<const Law>> laws_;
   std::vector<Block> blocks_;
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;

@@ -38,8 +38,8 @@ class FieldSetup {
   [[nodiscard]] virtual int boundary_axis(const std::string& boundary) const = 0;
   /// Makes a constant of the physics known to couplings (Field::constant): a density, a viscosity.
   virtual void publish(const std::string& constant, double value) = 0;
-  /// Makes the law of the body's stress known to couplings (Field::stress_law).
-  virtual void publish(std::shared_ptr<const StressLaw> law) = 0;
+  /// Makes a law of the physics known to couplings (Field::law), under one of the names that Law lists.
+  virtual void publish(const std::string& name, std::shared_ptr<const Law> law) = 0;
 
   /// Adds a term over all cells. @param operands the unknowns the kernel's operands 0, 1, ... stand for
   virtual void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;

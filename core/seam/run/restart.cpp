@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "seam/base/checksum.hpp"
 
@@ -16,7 +17,7 @@ namespace seam {
 namespace {
 
 // File: magic, format number, length of a JSON header, header, doubles, checksum of all that.
-constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '1'};
+constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '2'};
 
 std::string block_name(const FieldEntry& entry, std::size_t b) {
   return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());
@@ -112,9 +113,14 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   header["step"] = state.step;
   header["step_number"] = state.step_number;
   header["scene_checksum"] = checksum(scene_text);
-  header["times"] = state.results.time;
-  header["series"] = state.results.series;
-  std::vector<double> payload;
+  // Series are no JSON: they may be infinite, as a gap is where nothing is opposite.
+  header["times"] = state.results.time.size();
+  header["series"] = nlohmann::json::array();
+  std::vector<double> payload = state.results.time;
+  for (const auto& [name, values] : state.results.series) {
+    header["series"].push_back({{"name", name}, {"size", values.size()}});
+    payload.insert(payload.end(), values.begin(), values.end());
+  }
   for (const FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
       Block& block = entry.field->blocks()[b];
@@ -146,6 +152,17 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   std::size_t count = 0;
   const nlohmann::json header = parse(file, bytes, payload, count);
   std::size_t at = 0, which = 0;
+  const auto take = [&](std::size_t size) {
+    if (size > count - at) throw Error(fmt::format("the restart point '{}' is too short", file.string()));
+    const double* from = payload + std::exchange(at, at + size);
+    return std::vector<double>(from, from + size);
+  };
+  RunState state;
+  state.time = header["time"];
+  state.step = header["step"];
+  state.step_number = header["step_number"];
+  state.results.time = take(header["times"]);
+  for (const auto& series : header["series"]) state.results.series[series["name"]] = take(series["size"]);
   for (FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
       Block& block = entry.field->blocks()[b];
@@ -155,24 +172,16 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
                                 file.string(), expected.dump()));
       const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
       const std::vector<std::vector<double>*> levels = block.now.levels();
-      if (at + levels.size() * size > count)
-        throw Error(fmt::format("the restart point '{}' is too short", file.string()));
       for (std::vector<double>* level : levels) {
+        const std::vector<double> all = take(size);
         for (int n = 0; n < block.space->nodes(); ++n)
-          std::copy_n(payload + at + static_cast<std::size_t>(block.space->global_node(n)) * block.size,
+          std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(block.space->global_node(n)) * block.size,
                       block.size, level->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
-        at += size;
       }
       block.old = block.now;
       block.known.assign(block.known.size(), 1);
       entry.field->set_layout(nullptr);
     }
-  RunState state;
-  state.time = header["time"];
-  state.step = header["step"];
-  state.step_number = header["step_number"];
-  state.results.time = header["times"].get<std::vector<double>>();
-  state.results.series = header["series"].get<std::map<std::string, std::vector<double>>>();
   return state;
 }
 

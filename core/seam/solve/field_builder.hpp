@@ -21,8 +21,8 @@ class FieldBuilder final : public FieldSetup {
   [[nodiscard]] std::vector<std::string> boundaries() const override;
   [[nodiscard]] int boundary_axis(const std::string& boundary) const override;
   void publish(const std::string& constant, double value) override;
-  void publish(std::shared_ptr<const StressLaw> law) override {
-    entry_.field->set_stress_law(std::move(law));
+  void publish(const std::string& name, std::shared_ptr<const Law> law) override {
+    entry_.field->set_law(name, std::move(law));
   }
   void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;

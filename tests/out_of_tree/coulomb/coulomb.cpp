@@ -15,7 +15,7 @@ using w = Vector<1>;  // displacement of the other one
 
 /// n . sigma n of a body, Pa.
 template <int dim, class T, class G>
-T normal_stress(const StressLaw& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
+T normal_stress(const Law& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
   Mat<dim, dim, T> f = gradient;
   for (int i = 0; i < dim; ++i) f(i, i) += 1.0;
   const Vec<dim, T> traction = stress<dim, T>(law, gradient) * (transpose(f) * normal);
@@ -29,7 +29,7 @@ struct Coulomb {
   using Reads = Slots<Gradient<u>, Rate<u>, Gradient<w>, Rate<w>>;
   using Tests = Slots<Value<u>>;
   static constexpr int movers = 2;
-  std::shared_ptr<const StressLaw> own, other;
+  std::shared_ptr<const Law> own, other;
   double friction;  ///< coefficient
   double creep;     ///< m/s, below which bodies stick
 
@@ -60,10 +60,10 @@ class CoulombCoupling final : public Coupling {
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
     for (const Field* field : sides.fields) {
       static_cast<void>(field->place("displacement"));
-      if (!field->stress_law())
+      if (!field->law("stress"))
         throw Error("friction needs bodies that make their stress known; '" + field->name() + "' does not");
     }
-    const Coulomb kernel{sides.fields.at(0)->stress_law(), sides.fields.at(1)->stress_law(),
+    const Coulomb kernel{sides.fields.at(0)->law("stress"), sides.fields.at(1)->law("stress"),
                          parameters_.number("friction"), parameters_.number("creep")};
     return {{make_term(kernel), {{0, "displacement"}, {1, "displacement"}}}};
   }
