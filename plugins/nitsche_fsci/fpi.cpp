@@ -63,6 +63,9 @@ class Fpi final : public Coupling {
     return s;
   }
 
+  /// The porosity is no polynomial, and what leaves the fluid should be what the body's own balance takes in.
+  [[nodiscard]] int extra_degree() const override { return 4; }
+
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
     for (const Operand& operand : operands)
       static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));

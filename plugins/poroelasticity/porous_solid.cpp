@@ -97,7 +97,7 @@ void PorousSolid::add_balances(FieldSetup& setup) const {
   setup.add_cell_term(make_term(Mixture{skeleton_, flow_}), all_unknowns);
   if (density_ > 0) setup.add_cell_term(make_term(SkeletonInertia{density_}), {"displacement"});
   for (const std::string& name : setup.boundaries())
-    setup.add_boundary_term(name, make_term(Seepage{flow_.porosity}), all_unknowns);
+    setup.add_boundary_term(name, make_term(Seepage{flow_.porosity}, 4), all_unknowns);
 }
 
 void PorousSolid::add_stabilisation(FieldSetup& setup) const {

@@ -80,6 +80,8 @@ class Coupling {
     /// The part of the interface on which it is integrated, where that has several.
     std::string part = {};
   };
+  /// How much more than twice the order of the unknowns the interface should integrate exactly.
+  [[nodiscard]] virtual int extra_degree() const { return 0; }
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
   /// What becomes of a quantity on the interface: one number, recorded at every step as the time series

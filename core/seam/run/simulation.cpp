@@ -85,14 +85,15 @@ std::vector<double> Simulation::cell_costs(const std::string& mesh) const {
 /// What an interface may ask of the scene while it is built.
 class Simulation::Setup final : public InterfaceSetup {
  public:
-  Setup(Simulation& simulation, const std::vector<std::string>& names) : simulation_(simulation) {
+  Setup(Simulation& simulation, const std::vector<std::string>& names, int extra_degree)
+      : simulation_(simulation) {
     int order = 1;
     for (const std::string& name : names) {
       entries_.push_back(&simulation.problem_.field(name));
       sides.push_back(entries_.back()->field.get());
       for (const Block& block : sides.back()->blocks()) order = std::max(order, block.space->order());
     }
-    degree = 2 * order;
+    degree = 2 * order + extra_degree;
   }
   FieldCut& cut(int side) override { return simulation_.problem_.cut(*entries_[side]); }
   std::string displacement(int side) override {
@@ -122,15 +123,21 @@ void Simulation::build_couplings(const Registry& registry) {
                               fmt::join(names, ", ")));
     }
   };
+  std::vector<std::pair<Parameters, std::unique_ptr<Coupling>>> couplings;
+  std::map<std::string, int> extra_degree;  // by interface
+  for (const Parameters& parameters : scene_.root.list("coupling")) {
+    couplings.emplace_back(parameters, registry.create<Coupling>("coupling", parameters));
+    int& most = extra_degree[parameters.text("on")];
+    most = std::max(most, couplings.back().second->extra_degree());
+  }
   std::map<std::string, Built> interfaces;
   for (const auto& [name, interface] : interfaces_) {
-    Setup setup(*this, interface->fields());
+    Setup setup(*this, interface->fields(), extra_degree[name]);
     interfaces[name] = {interface->build(setup), setup.sides};
     problem_.name_interface(name, interfaces[name].parts);
   }
-  for (const Parameters& parameters : scene_.root.list("coupling")) {
+  for (const auto& [parameters, coupling] : couplings) {
     const Built& built = interfaces.at(parameters.text("on"));
-    const auto coupling = registry.create<Coupling>("coupling", parameters);
     try {
       const CouplingSides sides{{built.sides.begin(), built.sides.end()}};
       const auto bind = [&](const Coupling::SideTerm& term) {
@@ -259,13 +266,21 @@ bool Simulation::try_step(double until) {
   const Problem::Snapshot before = problem_.snapshot();
   const TimePoint at = step_to(until);
   problem_.begin_step(at);
+  const auto refuse = [&](const Error& error) {
+    problem_.restore(before);
+    reports_.emplace_back().reason = error.what();
+    return false;
+  };
   try {
     reports_.push_back(newton_->solve(at));
   } catch (const StepRefused& refused) {
+    return refuse(refused);
+  } catch (const SingularMatrix& singular) {
+    // What has been held so far is lost on a state that iterations went astray to, as where a body snaps
+    // through.
+    if (state_.step_number > 0) return refuse(singular);
     problem_.restore(before);
-    NewtonReport& report = reports_.emplace_back();
-    report.reason = refused.what();
-    return false;
+    throw;
   } catch (...) {
     problem_.restore(before);
     throw;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "seam/base/stopwatch.hpp"
 #include "seam/solve/field_builder.hpp"
@@ -283,7 +284,9 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
 }
 
 SpaceChange Problem::update_spaces(const TimePoint& at) {
-  SpaceChange change = update_cuts(at);
+  // An update that is refused on its way leaves some parts updated: the next one begins from scratch.
+  SpaceChange change = std::exchange(unfinished_, SpaceChange::unknowns);
+  change = std::max(change, update_cuts(at));
   for (auto& [name, parts] : interfaces_)
     for (InterfacePart& part : parts)
       if (communicator_.any(part.domain->follow(at.time))) change = std::max(change, SpaceChange::geometry);
@@ -291,6 +294,7 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;
   if (change != SpaceChange::none) assembler_->rebuild();
+  unfinished_ = SpaceChange::none;
   return change;
 }
 

@@ -194,6 +194,7 @@ class Problem {
   std::map<std::string, std::vector<InterfacePart>> interfaces_;
   std::vector<InterfaceMeasure> measures_;
   std::vector<SpaceUpdate> space_updates_;
+  SpaceChange unfinished_ = SpaceChange::none;  ///< of an update of spaces that was refused
   std::unique_ptr<Assembler> assembler_;
   double cut_seconds_ = 0;
 };
