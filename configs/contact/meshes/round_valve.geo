@@ -11,7 +11,7 @@ DefineConstant[
 Mesh.MeshSizeMin = h/4;
 Mesh.MeshSizeMax = h;
 Mesh.MeshSizeFromPoints = 0;
-Mesh.MeshSizeFromCurvature = 12;  // cells round a full turn: coarse free edges would be sharp
+Mesh.MeshSizeFromCurvature = 10;  // cells round a full turn: coarse free edges would be sharp
 // A leaflet's middle plane runs from (0.19, inner) along (tx, ty); it aims at (0.145, 0.0064).
 length = Sqrt(0.045^2 + 0.0436^2);
 tx = -0.045/length;

@@ -71,6 +71,7 @@ struct Extension::System {
   /// [row][column of the right-hand sides]; empty when the known nodes do not determine the new ones.
   [[nodiscard]] Eigen::MatrixXd solve(int columns) const {
     const int rows = static_cast<int>(index.size());
+    if (rows == 0) return {};  // no face joins them to any
     std::vector<Eigen::Triplet<double>> triplets;
     for (const Entry& entry : matrix)
       triplets.emplace_back(index.at(entry.row), index.at(entry.column), entry.value);
