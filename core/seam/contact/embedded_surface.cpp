@@ -85,22 +85,22 @@ EmbeddedSurface::Key EmbeddedSurface::key_of(const Element& e) {
   return {e.outside.cell, e.outside.part, e.group, e.other_group, e.own_edge_group, e.other_edge_group};
 }
 
-/// In the plane: where on a wet part of a facet the facet opposite changes.
-/// @param moving appended: those that follow a vertex opposite. Where the opposite surface begins or ends
-/// nothing depends on the very place, and of the two sides only one knows that surface: those stay.
+/// In the plane: where on a wet part of a facet the facet opposite changes. A part that has no opposite one
+/// somewhere stays whole: points there do not know the vertices that the places follow.
+/// @param moving appended: the same places, with these vertices
 std::vector<double> EmbeddedSurface::divide(int facet, double from, double to, const OppositePoints& opposite,
                                             std::vector<OppositePoints::Break>& moving) {
-  std::vector<double> places;
-  bool was_opposite = false;
-  for (const OppositePoints::Stretch& stretch : opposite.stretches(facet, from, to)) {
+  const std::vector<OppositePoints::Stretch> stretches = opposite.stretches(facet, from, to);
+  for (const OppositePoints::Stretch& stretch : stretches) {
     const double middle = 0.5 * (stretch.from.share + stretch.to.share);
-    const bool is_opposite = opposite.find(facet, &middle).has_value();
+    if (!opposite.find(facet, &middle)) return {};
+  }
+  std::vector<double> places;
+  for (const OppositePoints::Stretch& stretch : stretches)
     if (stretch.from.vertex >= 0) {
       places.push_back(stretch.from.share);
-      if (was_opposite && is_opposite) moving.push_back(stretch.from);
+      moving.push_back(stretch.from);
     }
-    was_opposite = is_opposite;
-  }
   return places;
 }
 
