@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "laws.hpp"
+#include "seam/physics/body_terms.hpp"
 #include "seam/physics/hyperelastic.hpp"
 #include "seam/scene/expression.hpp"
 #include "seam/term/kernel_term.hpp"
@@ -160,31 +161,6 @@ struct Mixture {
   }
 };
 
-/// (du, rho_S d2u/dt2)
-struct SkeletonInertia {
-  using Reads = Slots<SecondRate<u>>;
-  using Tests = Slots<Value<u>>;
-  double density;  ///< averaged, kg/m^3 of reference volume
-  template <int dim, class T>
-  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    r.value(u{}) += density * s.second_rate(u{});
-  }
-};
-
-/// -factor (du, b(X, t)): a body force (factor rho_S) or a dead traction on the mixture (factor 1).
-struct Load {
-  using Reads = Slots<>;
-  using Tests = Slots<Value<u>>;
-  std::vector<Expression> load;
-  double factor;
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
-    Vec<dim, double> value;
-    for (int i = 0; i < dim; ++i) value[i] = factor * load[i](x.position.c.data(), dim, x.time);
-    r.value(u{}) -= value;
-  }
-};
-
 /// -(dv, rho_F J b) on the fluid in the pores.
 struct FluidLoad {
   using Reads = Slots<Gradient<u>>;
@@ -200,17 +176,7 @@ struct FluidLoad {
   }
 };
 
-/// The loads of bodies above with forces that are given at the nodes.
-struct NodalLoad {
-  using force = Vector<1>;
-  using Reads = Slots<Value<force>>;
-  using Tests = Slots<Value<u>>;
-  double density;
-  template <int dim, class T>
-  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    r.value(u{}) -= density * s.value(force{});
-  }
-};
+/// The same with the force interpolated from the nodes.
 struct NodalFluidLoad {
   using force = Vector<2>;
   using Reads = Slots<Gradient<u>, Value<force>>;

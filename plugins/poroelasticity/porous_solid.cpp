@@ -54,10 +54,10 @@ Mat<3, 3, double> permeability(const Parameters& parameters) {
 PorousSolid::PorousSolid(const Parameters& parameters, const Registry& registry)
     : parameters_(parameters),
       skeleton_(registry.create<Potential>("hyperelastic", parameters.object("material"))),
-      flow_{
-          parameters.number("fluid_density"), parameters.number("viscosity"),
-          porosity_of(parameters.object("porosity")), parameters.boolean("kozeny_carman"),
-          inverse(parameters.dimension() == 2 ? permeability<2>(parameters) : permeability<3>(parameters)).c},
+      permeability_(parameters.dimension() == 2 ? permeability<2>(parameters) : permeability<3>(parameters)),
+      flow_{parameters.number("fluid_density"), parameters.number("viscosity"),
+            porosity_of(parameters.object("porosity")), parameters.boolean("kozeny_carman"),
+            inverse(permeability_).c},
       density_(parameters.number("density")),
       nodal_forces_(parameters.boolean("interpolate_body_force")),
       order_(static_cast<int>(parameters.integer("order"))) {
@@ -78,9 +78,7 @@ std::vector<Unknown> PorousSolid::unknowns(int dimension) const {
 void PorousSolid::build(FieldSetup& setup) const {
   setup.publish("density", flow_.density);
   setup.publish("viscosity", flow_.viscosity);
-  const Mat<3, 3, double> k =
-      setup.dimension() == 2 ? permeability<2>(parameters_) : permeability<3>(parameters_);
-  setup.publish("pores", std::make_shared<LawOf<PoresFormula>>(PoresFormula{flow_, k.c}));
+  setup.publish("pores", std::make_shared<LawOf<PoresFormula>>(PoresFormula{flow_, permeability_.c}));
   add_balances(setup);
   if (order_ == 1) add_stabilisation(setup);
   add_loads(setup);
@@ -95,7 +93,7 @@ void PorousSolid::add_balances(FieldSetup& setup) const {
   setup.add_cell_term(make_term(Storage{flow_.porosity, conservative}), all_unknowns);
   setup.add_cell_term(make_term(PoreMomentum{flow_}), all_unknowns);
   setup.add_cell_term(make_term(Mixture{skeleton_, flow_}), all_unknowns);
-  if (density_ > 0) setup.add_cell_term(make_term(SkeletonInertia{density_}), {"displacement"});
+  if (density_ > 0) setup.add_cell_term(make_term(BodyInertia{density_}), {"displacement"});
   for (const std::string& name : setup.boundaries())
     setup.add_boundary_term(name, make_term(Seepage{flow_.porosity}, 4), all_unknowns);
 }
@@ -130,9 +128,9 @@ void PorousSolid::add_loads(FieldSetup& setup) const {
   };
   add("body_force", density_, "density",
       [&](const std::vector<Expression>& force) {
-        return make_term(Load{force, density_}, 1);
+        return make_term(BodyLoad{force, density_}, 1);
       },
-      make_term(NodalLoad{density_}, 1), {"displacement"});
+      make_term(NodalBodyLoad{density_}, 1), {"displacement"});
   add("fluid_body_force", flow_.density, "fluid_density",
       [&](const std::vector<Expression>& force) {
         return make_term(FluidLoad{force, flow_.density}, 1);
@@ -147,7 +145,7 @@ void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,
       if (condition.component_given(unknown, d))
         setup.prescribe(name, unknown, d, condition.vector_expression(unknown)[d], condition.where(unknown));
   if (condition.has("traction"))
-    setup.add_boundary_term(name, make_term(Load{condition.vector_expression("traction"), 1.0}, 1),
+    setup.add_boundary_term(name, make_term(BodyLoad{condition.vector_expression("traction"), 1.0}, 1),
                             {"displacement"});
   if (condition.has("pressure"))
     setup.add_boundary_term(name, make_term(MixturePressure{condition.expression("pressure")}, 1),

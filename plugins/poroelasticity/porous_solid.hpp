@@ -28,6 +28,7 @@ class PorousSolid final : public Physics {
 
   Parameters parameters_;
   PotentialPointer skeleton_;
+  Mat<3, 3, double> permeability_;  ///< K, m^2
   PoreFlow flow_;
   double density_;  ///< averaged, of the skeleton
   bool nodal_forces_;

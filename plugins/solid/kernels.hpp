@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "seam/physics/body_terms.hpp"
 #include "seam/physics/hyperelastic.hpp"
 #include "seam/scene/expression.hpp"
 #include "seam/term/kernel_term.hpp"
@@ -57,43 +58,6 @@ struct MixedInternalForce {
     r.gradient(u{}) += stress;
     r.value(p{}) += j - theta;
     r.value(dilation{}) += isochoric / theta + slope[2] - s.value(p{});
-  }
-};
-
-/// (du, rho0 d2u/dt2)
-struct Inertia {
-  using Reads = Slots<SecondRate<u>>;
-  using Tests = Slots<Value<u>>;
-  double density;  ///< kg/m^3 of reference volume
-  template <int dim, class T>
-  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    r.value(u{}) += density * s.second_rate(u{});
-  }
-};
-
-/// -factor (du, b(X, t)): a body force (factor rho0) or a dead traction (factor 1).
-struct Load {
-  using Reads = Slots<>;
-  using Tests = Slots<Value<u>>;
-  std::vector<Expression> load;
-  double factor;
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
-    Vec<dim, double> value;
-    for (int i = 0; i < dim; ++i) value[i] = factor * load[i](x.position.c.data(), dim, x.time);
-    r.value(u{}) -= value;
-  }
-};
-
-/// -(du, rho0 b) with the body force interpolated from the nodes.
-struct NodalLoad {
-  using force = Vector<1>;
-  using Reads = Slots<Value<force>>;
-  using Tests = Slots<Value<u>>;
-  double density;  ///< kg/m^3 of reference volume
-  template <int dim, class T>
-  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    r.value(u{}) -= density * s.value(force{});
   }
 };
 

@@ -230,7 +230,7 @@ void RigidBody::build(FieldSetup& setup) const {
     setup.add_cell_term(make_term(body), unknown_names);
     setup.add_integral("kinetic_energy", make_quantity(RigidKineticEnergy{body}), unknown_names);
     if (parameters_.has("body_force"))
-      setup.add_cell_term(make_term(Load{parameters_.vector_expression("body_force"), body.mass}),
+      setup.add_cell_term(make_term(BodyLoad{parameters_.vector_expression("body_force"), body.mass}),
                           unknown_names);
   }
   if (!parameters_.has("initial")) return;

@@ -99,18 +99,18 @@ void Solid::add_body_terms(FieldSetup& setup) const {
   else
     setup.add_cell_term(make_term(InternalForce{{material_}}), displacement_only);
   if (!mixed_) setup.publish("stress", std::make_shared<LawStress<Piola>>(Piola{material_}));
-  if (density_ > 0) setup.add_cell_term(make_term(Inertia{density_}), displacement_only);
+  if (density_ > 0) setup.add_cell_term(make_term(BodyInertia{density_}), displacement_only);
   if (!parameters_.has("body_force")) return;
   if (density_ == 0)
     throw Error(parameters_.where("body_force"),
                 "a body force per mass acts on a body without mass: give a `density`");
   const auto& force = parameters_.vector_expression("body_force");
   if (!nodal_force_) {
-    setup.add_cell_term(make_term(Load{force, density_}, 1), displacement_only);
+    setup.add_cell_term(make_term(BodyLoad{force, density_}, 1), displacement_only);
     return;
   }
   for (int d = 0; d < setup.dimension(); ++d) setup.give("body_force", d, force[d]);
-  setup.add_cell_term(make_term(NodalLoad{density_}, 1), {unknown_name, "body_force"});
+  setup.add_cell_term(make_term(NodalBodyLoad{density_}, 1), {unknown_name, "body_force"});
 }
 
 void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
@@ -121,7 +121,7 @@ void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
           setup.prescribe(name, unknown_name, d, condition.vector_expression("displacement")[d],
                           condition.where("displacement"));
     if (condition.has("traction"))
-      setup.add_boundary_term(name, make_term(Load{condition.vector_expression("traction"), 1.0}, 1),
+      setup.add_boundary_term(name, make_term(BodyLoad{condition.vector_expression("traction"), 1.0}, 1),
                               displacement_only);
     if (condition.has("support"))
       setup.add_boundary_term(name, make_term(Support{condition.vector("support")}, 1), displacement_only);

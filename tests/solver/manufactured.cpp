@@ -37,7 +37,7 @@ class ManufacturedSolid final : public Physics {
                           {"displacement", "pressure", "dilation"});
     else
       setup.add_cell_term(make_term(solid::InternalForce{{material_}}), u);
-    if (body_.dynamic) setup.add_cell_term(make_term(solid::Inertia{density}), u);
+    if (body_.dynamic) setup.add_cell_term(make_term(BodyInertia{density}), u);
     setup.add_cell_term(make_term(ManufacturedLoad{body_.exact, material_, density, body_.dynamic}, 2), u);
     const int dim = setup.dimension();
     const auto exact = body_.exact.text(dim), rate = body_.exact.rate_text(dim);

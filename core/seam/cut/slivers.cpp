@@ -168,7 +168,8 @@ void measure(const Outline& outline, CutCell& cell) {
 
 void close_seams(const Outline& outline, CutCell& cell) {
   const int dim = outline.dimension;
-  const double rounding = 1e-9 * std::pow(outline.volume(cell.cell), 1.0 / dim);
+  constexpr double rounding = 1e-9;  // of the cell's size, and of a cosine
+  const double reach = rounding * std::pow(outline.volume(cell.cell), 1.0 / dim);
   for (int s = outline.first_side[cell.cell]; s < outline.first_side[cell.cell + 1]; ++s) {
     const Side& side = outline.sides[s];
     if (outline.neighbour[cell.cell][side.face] >= 0) continue;
@@ -176,9 +177,8 @@ void close_seams(const Outline& outline, CutCell& cell) {
     const auto lies_in_side = [&](const Piece& piece) {
       if (dot(piece.normal, normal) > rounding - 1) return false;
       const Vector* x = &cell.points[piece.first];
-      return std::all_of(x, x + piece.count, [&](const Vector& point) {
-        return std::abs(dot(point - origin, normal)) < rounding;
-      });
+      return std::all_of(x, x + piece.count,
+                         [&](const Vector& point) { return std::abs(dot(point - origin, normal)) < reach; });
     };
     for (const Piece& piece : cell.pieces) {
       if (!lies_in_side(piece)) continue;

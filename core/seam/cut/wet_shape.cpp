@@ -96,7 +96,7 @@ void CutMesh::wet_shape(int cell, WetShape& shape, int part) const {
   }
   for (const WetPart& w : cut.wet)
     if (dim == 2)
-      outline.push_back({w.corner[w.sign < 0], w.corner[w.sign > 0]});
+      outline.push_back(w.sign > 0 ? Segment{w.corner[0], w.corner[1]} : Segment{w.corner[1], w.corner[0]});
     else
       append(dim, {w.corner.begin(), w.corner.end()}, shape);
   for (const Loop& loop : link(outline)) append(dim, loop, shape);
