@@ -9,9 +9,6 @@
 namespace seam::fluid {
 namespace {
 
-const std::vector<std::string> velocity_only{"velocity"};
-const std::vector<std::string> both{"velocity", "pressure"};
-
 /// What a condition gives, by its key. @throws Error unless it is exactly one thing
 std::string kind_of(const Parameters& condition) {
   std::vector<std::string> kinds;
@@ -49,16 +46,22 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
     : parameters_(p),
       stabilisation_(registry.create<Stabilisation>("fluid_stabilisation", p.object("stabilisation"))),
       flow_{p.number("density"), p.number("viscosity"), p.boolean("convection")},
+      on_mesh_{p.has("moving_mesh")},
       order_(static_cast<int>(p.integer("order"))),
       nodal_force_(p.has("body_force") && p.boolean("interpolate_body_force")) {
   if (order_ > stabilisation_->highest_order())
     throw Error(p.where("stabilisation"),
                 fmt::format("`{}` is consistent up to order {}; `order: {}` needs `cip`",
                             p.object("stabilisation").type(), stabilisation_->highest_order(), order_));
+  if (on_mesh_.moves && !stabilisation_->follows_mesh())
+    throw Error(p.where("stabilisation"),
+                fmt::format("found `{}`, expected `residual`: penalties on jumps do not follow a moving mesh",
+                            p.object("stabilisation").type()));
 }
 
 std::vector<Unknown> Fluid::unknowns(int dimension) const {
   std::vector<Unknown> result{{"velocity", dimension, order_, 1, "m/s"}, {"pressure", 1, order_, 0, "Pa"}};
+  if (on_mesh_.moves) result.push_back({"displacement", dimension, 1, 1, "m"});
   if (nodal_force_) result.push_back({"body_force", dimension, order_, 0, "m/s^2", true});
   return result;
 }
@@ -68,7 +71,10 @@ void Fluid::build(FieldSetup& setup) const {
   setup.publish("viscosity", flow_.viscosity);
   setup.publish("convection", flow_.convection ? 1 : 0);
   add_volume_terms(setup);
-  add_ghost_penalty(setup);
+  if (on_mesh_.moves)
+    add_mesh_motion(setup);
+  else
+    add_ghost_penalty(setup);
   for (const Parameters& condition : parameters_.list("boundary"))
     for (const std::string& name : condition.names("on")) add_boundary(setup, condition, name);
   fix_pressure_level(setup);
@@ -77,20 +83,34 @@ void Fluid::build(FieldSetup& setup) const {
 }
 
 void Fluid::add_volume_terms(FieldSetup& setup) const {
-  setup.add_cell_term(make_term(Stokes{flow_.viscosity}), both);
-  setup.add_cell_term(make_term(Inertia{flow_.density}), velocity_only);
-  if (flow_.convection) setup.add_cell_term(make_term(Convection{flow_.density}, order_ - 1), velocity_only);
+  const auto both = on_mesh_.operands("velocity", "pressure");
+  setup.add_cell_term(on_mesh_.term(Stokes{flow_.viscosity}), both);
+  setup.add_cell_term(on_mesh_.term(Inertia{flow_.density}), both);
+  if (flow_.convection) setup.add_cell_term(on_mesh_.term(Convection{flow_.density}, order_ - 1), both);
   std::vector<Expression> body_force;
   if (parameters_.has("body_force")) {
     body_force = parameters_.vector_expression("body_force");
     if (nodal_force_) {
       for (int d = 0; d < setup.dimension(); ++d) setup.give("body_force", d, body_force[d]);
-      setup.add_cell_term(make_term(NodalLoad{flow_.density}, 1), {"velocity", "body_force"});
+      setup.add_cell_term(on_mesh_.term(NodalLoad{flow_.density}, 1),
+                          on_mesh_.operands("velocity", "body_force"));
     } else {
-      setup.add_cell_term(make_term(Load{body_force, flow_.density}, 1), velocity_only);
+      setup.add_cell_term(on_mesh_.term(Load{body_force, flow_.density}, 1), both);
     }
   }
-  stabilisation_->add(setup, flow_, body_force);
+  stabilisation_->add(setup, on_mesh_, flow_, body_force);
+}
+
+void Fluid::add_mesh_motion(FieldSetup& setup) const {
+  const Parameters& motion = parameters_.object("moving_mesh");
+  setup.add_cell_term(make_term(PseudoElastic{motion.number("poisson")}), {"displacement"});
+  for (const Parameters& condition : motion.list("boundary"))
+    for (const std::string& name : condition.names("on"))
+      for (int d = 0; d < setup.dimension(); ++d)
+        if (condition.component_given("displacement", d))
+          setup.prescribe(name, "displacement", d, condition.vector_expression("displacement")[d],
+                          condition.where("displacement"));
+  setup.add_output("mesh_volume", make_quantity(MeshVolume{}), {"displacement"});
 }
 
 void Fluid::add_ghost_penalty(FieldSetup& setup) const {
@@ -106,8 +126,8 @@ void Fluid::add_boundary(FieldSetup& setup, const Parameters& condition, const s
   if (kind == "velocity") return add_velocity(setup, condition, boundary);
   if (kind == "slip") return add_slip(setup, condition, boundary);
   if (kind == "outflow") return add_outflow(setup, condition, boundary);
-  setup.add_boundary_term(boundary, make_term(Load{condition.vector_expression("traction"), 1.0}, 1),
-                          velocity_only);
+  setup.add_boundary_term(boundary, on_mesh_.term(Load{condition.vector_expression("traction"), 1.0}, 1),
+                          on_mesh_.operands("velocity", "pressure"));
 }
 
 void Fluid::add_velocity(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
@@ -121,7 +141,8 @@ void Fluid::add_velocity(FieldSetup& setup, const Parameters& condition, const s
       setup.prescribe(boundary, "velocity", d, velocity[d], condition.where("velocity"));
   }
   if (condition.boolean("weak"))
-    setup.add_boundary_term(boundary, make_term(weak_condition(condition, flow_, velocity), 1), both);
+    setup.add_boundary_term(boundary, on_mesh_.term(weak_condition(condition, flow_, velocity), 1),
+                            on_mesh_.operands("velocity", "pressure"));
 }
 
 /// On a side that a coordinate is constant on, the normal component is prescribed; else it is imposed weakly.
@@ -130,15 +151,17 @@ void Fluid::add_slip(FieldSetup& setup, const Parameters& condition, const std::
   if (axis >= 0)
     setup.prescribe(boundary, "velocity", axis, Expression(0.0), condition.where("slip"));
   else
-    setup.add_boundary_term(boundary, make_term(weak_slip(flow_, setup.dimension())), both);
+    setup.add_boundary_term(boundary, on_mesh_.term(weak_slip(flow_, setup.dimension())),
+                            on_mesh_.operands("velocity", "pressure"));
 }
 
 void Fluid::add_outflow(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
+  const auto both = on_mesh_.operands("velocity", "pressure");
   if (condition.text("outflow") == "do_nothing")
-    setup.add_boundary_term(boundary, make_term(DoNothing{flow_.viscosity}), velocity_only);
+    setup.add_boundary_term(boundary, on_mesh_.term(DoNothing{flow_.viscosity}), both);
   const double backflow = condition.number("backflow");
   if (backflow > 0)
-    setup.add_boundary_term(boundary, make_term(Backflow{flow_.density, backflow}, order_), velocity_only);
+    setup.add_boundary_term(boundary, on_mesh_.term(Backflow{flow_.density, backflow}, order_), both);
 }
 
 void Fluid::fix_pressure_level(FieldSetup& setup) const {
@@ -164,13 +187,14 @@ void Fluid::set_initial(FieldSetup& setup) const {
 }
 
 void Fluid::add_outputs(FieldSetup& setup) const {
-  setup.add_output("stress", make_quantity(CauchyStress{flow_.viscosity}), both);
-  setup.add_output("velocity_gradient", make_quantity(VelocityGradient{}), velocity_only);
-  setup.add_output("vorticity", make_quantity(Vorticity{}), velocity_only);
-  setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{flow_.density}), velocity_only);
-  setup.add_integral("dissipation", make_quantity(Dissipation{flow_.viscosity}), velocity_only);
-  setup.add_integral("volume", make_quantity(Volume{}), velocity_only);
-  setup.add_integral("divergence", make_quantity(Divergence{}), velocity_only);
+  const auto both = on_mesh_.operands("velocity", "pressure");
+  setup.add_output("stress", on_mesh_.value(CauchyStress{flow_.viscosity}), both);
+  setup.add_output("velocity_gradient", on_mesh_.value(VelocityGradient{}), both);
+  setup.add_output("vorticity", on_mesh_.value(Vorticity{}), both);
+  setup.add_integral("kinetic_energy", on_mesh_.integrand(KineticEnergy{flow_.density}), both);
+  setup.add_integral("dissipation", on_mesh_.integrand(Dissipation{flow_.viscosity}), both);
+  setup.add_integral("volume", on_mesh_.integrand(Volume{}), both);
+  setup.add_integral("divergence", on_mesh_.integrand(Divergence{}), both);
 }
 
 }  // namespace seam::fluid

@@ -6,8 +6,8 @@
 
 namespace seam::fluid {
 
-/// An incompressible Newtonian fluid on a fixed mesh from which bodies may be cut out,
-/// thesis 2.1.5, 2.2.4, 3.1.
+/// An incompressible Newtonian fluid on a fixed mesh from which bodies may be cut out, thesis 2.1.5, 2.2.4,
+/// 3.1, or on a mesh that moves with what it is fitted to.
 class Fluid final : public Physics {
  public:
   Fluid(const Parameters& parameters, const Registry& registry);
@@ -16,8 +16,10 @@ class Fluid final : public Physics {
   [[nodiscard]] bool separates_parts() const override { return parameters_.text("parts") == "separate"; }
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override;
   void build(FieldSetup& setup) const override;
+  [[nodiscard]] std::string displacement() const override { return on_mesh_.moves ? "displacement" : ""; }
 
  private:
+  void add_mesh_motion(FieldSetup& setup) const;
   void add_volume_terms(FieldSetup& setup) const;
   void add_ghost_penalty(FieldSetup& setup) const;
   void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
@@ -31,6 +33,7 @@ class Fluid final : public Physics {
   Parameters parameters_;
   std::unique_ptr<Stabilisation> stabilisation_;
   Flow flow_;
+  OnMesh on_mesh_;
   int order_;
   bool nodal_force_;  ///< the body force is interpolated from the nodes
 };

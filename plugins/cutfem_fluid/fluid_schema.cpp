@@ -36,10 +36,25 @@ Schema ghost_penalty_schema() {
   return s;
 }
 
+Schema moving_mesh_schema() {
+  Schema s(
+      "The mesh moves: with a body it is fitted to (coupling `fsi` or `fpi` on a matching interface) and as "
+      "given here; between these it is an elastic body without mass.");
+  s.number("poisson", "Poisson's ratio of that body").otherwise("0").above(-1).below(0.5);
+  Schema boundary("Where the motion of the mesh is given.");
+  boundary.names("on", "Boundaries of the mesh").naming("boundary");
+  boundary.vector_expression("displacement", "Of the mesh; null leaves a component free").unit("m");
+  s.list("boundary", "Given motion; where there is none, the boundary goes along freely", boundary)
+      .otherwise("[]");
+  return s;
+}
+
 }  // namespace
 
 Schema Fluid::schema() {
-  Schema s("Incompressible Newtonian fluid on a fixed mesh; bodies may be cut out of it.");
+  Schema s(
+      "Incompressible Newtonian fluid: on a fixed mesh, out of which bodies may be cut, or on a mesh that "
+      "moves.");
   s.reference("mesh", "Where the fluid may be", "mesh");
   s.number("density", "Mass per volume").unit("kg/m^3").above(0);
   s.number("viscosity", "Dynamic viscosity").unit("Pa s").above(0);
@@ -57,6 +72,9 @@ Schema Fluid::schema() {
   s.object("initial", "State at the start; default at rest", initial).optional();
   s.typed("stabilisation", "Against oscillations of equal orders and of convection", "fluid_stabilisation")
       .otherwise("cip");
+  s.object("moving_mesh", "The mesh moves (ALE formulation); needs `stabilisation: residual`",
+           moving_mesh_schema())
+      .optional();
   s.object("ghost_penalty", "Penalty on jumps around cut cells", ghost_penalty_schema()).otherwise("{}");
   s.choice("parts",
            "Where a body thinner than a cell lies between them, `separate` gives the fluid on either side "

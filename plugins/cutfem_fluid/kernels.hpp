@@ -3,8 +3,7 @@
 
 #include <vector>
 
-#include "seam/scene/expression.hpp"
-#include "seam/term/kernel_term.hpp"
+#include "seam/term/given_functions.hpp"
 
 /// The weak form of an incompressible Newtonian fluid on a fixed mesh, thesis (2.112), term by term, with
 /// sigma = -p I + 2 mu sym(grad v).
@@ -26,14 +25,6 @@ Mat<dim, dim, T> stress(double viscosity, const Mat<dim, dim, T>& velocity_gradi
   Mat<dim, dim, T> sigma = (2 * viscosity) * sym(velocity_gradient);
   for (int i = 0; i < dim; ++i) sigma(i, i) -= pressure;
   return sigma;
-}
-
-/// A vector of functions of position and time at a point.
-template <int dim>
-Vec<dim, double> at(const std::vector<Expression>& functions, const Point<dim>& x) {
-  Vec<dim, double> value;
-  for (int i = 0; i < dim; ++i) value[i] = functions[i](x.position.c.data(), dim, x.time);
-  return value;
 }
 
 /// (grad dv, sigma) + (dp, div v)
@@ -77,9 +68,9 @@ struct Load {
   using Tests = Slots<Value<Velocity>>;
   std::vector<Expression> load;
   double factor;
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
-    r.value(Velocity{}) -= factor * at<dim>(load, x);
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
+    r.value(Velocity{}) -= factor * evaluate_at<dim>(load, x.position, x);
   }
 };
 
@@ -101,8 +92,8 @@ struct DoNothing {
   using Reads = Slots<Gradient<Velocity>>;
   using Tests = Slots<Value<Velocity>>;
   double viscosity;  ///< Pa s
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     r.value(Velocity{}) -= viscosity * (transpose(s.gradient(Velocity{})) * x.normal);
   }
 };
@@ -114,8 +105,8 @@ struct Backflow {
   using Tests = Slots<Value<Velocity>>;
   double density;  ///< kg/m^3
   double strength;
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     const Vec<dim, T> velocity = s.value(Velocity{});
     const T through = dot(velocity, x.normal);
     if (plain(through) < 0) r.value(Velocity{}) -= (strength * density) * (through * velocity);

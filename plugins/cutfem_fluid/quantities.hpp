@@ -83,7 +83,7 @@ struct Divergence {
 };
 
 struct Volume {
-  using Reads = Slots<>;
+  using Reads = Slots<Value<Velocity>>;
   static constexpr int values(int) { return 1; }
   template <int dim>
   void operator()(const Point<dim>&, const Trial<dim, double, Reads>&, double* value) const {

@@ -16,8 +16,8 @@ struct ResidualStabilisation {
   std::vector<Expression> body_force;  ///< m/s^2; empty for none
   double momentum, divergence;         ///< factors of tau_M and tau_C
 
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     using std::sqrt;
     const double h = x.cell_size / std::sqrt(static_cast<double>(dim));  // edge of a cube
     const Vec<dim, T> velocity = s.value(Velocity{});
@@ -28,7 +28,7 @@ struct ResidualStabilisation {
       acceleration += grad * velocity;
       square = dot(velocity, velocity);
     }
-    if (!body_force.empty()) acceleration -= at<dim>(body_force, x);
+    if (!body_force.empty()) acceleration -= evaluate_at<dim>(body_force, x.position, x);
     const double viscous = 12 * flow.viscosity / (h * h), convective = 2 * flow.density / h;
     const double inertia = transient(flow, x);
     const T tau_m =

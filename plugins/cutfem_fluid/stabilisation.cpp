@@ -30,7 +30,9 @@ class InteriorPenaltyStabilisation final : public Stabilisation {
   }
   [[nodiscard]] int highest_order() const override { return 2; }
   [[nodiscard]] const JumpConstants& jumps() const override { return constants_; }
-  void add(FieldSetup& setup, const Flow& flow, const std::vector<Expression>&) const override {
+  [[nodiscard]] bool follows_mesh() const override { return false; }
+  void add(FieldSetup& setup, const OnMesh&, const Flow& flow,
+           const std::vector<Expression>&) const override {
     setup.add_interior_face_term(make_term(InteriorPenalty{flow, constants_}), both_sides);
   }
 
@@ -54,9 +56,13 @@ class ResidualBasedStabilisation final : public Stabilisation {
   }
   [[nodiscard]] int highest_order() const override { return 1; }
   [[nodiscard]] const JumpConstants& jumps() const override { return constants_; }
-  void add(FieldSetup& setup, const Flow& flow, const std::vector<Expression>& body_force) const override {
-    setup.add_uncut_cell_term(make_term(ResidualStabilisation{flow, body_force, momentum_, divergence_}, 1),
-                              {"velocity", "pressure"});
+  [[nodiscard]] bool follows_mesh() const override { return true; }
+  void add(FieldSetup& setup, const OnMesh& on_mesh, const Flow& flow,
+           const std::vector<Expression>& body_force) const override {
+    setup.add_uncut_cell_term(
+        on_mesh.term(ResidualStabilisation{flow, body_force, momentum_, divergence_}, 1),
+        on_mesh.operands("velocity", "pressure"));
+    if (on_mesh.moves) return;
     // All faces, also dry ones: cells that hang on to others by a dry face only would be left out otherwise.
     setup.add_ghost_face_term(GhostFaces::all, make_term(InteriorPenalty{flow, constants_}), both_sides);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "face_jumps.hpp"
+#include "moving.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/registry.hpp"
 
@@ -15,8 +16,11 @@ class Stabilisation {
   [[nodiscard]] virtual int highest_order() const = 0;
   /// Constants of the jump penalties on faces of cut cells.
   [[nodiscard]] virtual const JumpConstants& jumps() const = 0;
+  /// Whether it can be used on a mesh that moves.
+  [[nodiscard]] virtual bool follows_mesh() const = 0;
   /// @param body_force per mass, empty for none
-  virtual void add(FieldSetup& setup, const Flow& flow, const std::vector<Expression>& body_force) const = 0;
+  virtual void add(FieldSetup& setup, const OnMesh& on_mesh, const Flow& flow,
+                   const std::vector<Expression>& body_force) const = 0;
 };
 
 /// Registers `cip` and `residual`.

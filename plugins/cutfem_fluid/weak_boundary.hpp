@@ -31,16 +31,16 @@ struct WeakVelocity {
   double adjoint;                    ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
   double normal_penalty, tangential_penalty;
 
-  template <int dim, class T>
-  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Vec<dim, double>& n = x.normal;
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Vec<dim, G>& n = x.normal;
     const double h = x.trace_size;
     const Vec<dim, T> fluid_velocity = s.value(Velocity{});
     const T phi = resistance<dim, T>(flow, h, x, fluid_velocity);
-    const Vec<dim, T> slip = fluid_velocity - at<dim>(velocity, x);
+    const Vec<dim, T> slip = fluid_velocity - evaluate_at<dim>(velocity, x.position, x);
     const Vec<dim, T> force = stress<dim, T>(flow.viscosity, s.gradient(Velocity{}), s.value(Pressure{})) * n;
     Vec<dim, T> friction = force;
-    if (!traction.empty()) friction -= at<dim>(traction, x);
+    if (!traction.empty()) friction -= evaluate_at<dim>(traction, x.position, x);
 
     // 1 - beta/(lambda + beta) instead of lambda/(lambda + beta): no 0/0 at infinite slip.
     const T beta = h / (tangential_penalty * phi);
@@ -58,8 +58,8 @@ struct WeakVelocity {
   }
 
  private:
-  template <int dim, class T>
-  static Vec<dim, T> tangential(const Vec<dim, T>& a, const Vec<dim, double>& n) {
+  template <int dim, class T, class G>
+  static Vec<dim, T> tangential(const Vec<dim, T>& a, const Vec<dim, G>& n) {
     return a - dot(a, n) * n;
   }
 };

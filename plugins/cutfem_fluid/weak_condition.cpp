@@ -8,12 +8,20 @@ namespace {
 
 constexpr double usual_penalty = 35;  ///< thesis 3.5 to 7.4
 
-double adjoint_sign(const std::string& choice) {
+}  // namespace
+
+void declare_adjoint(Schema& schema) {
+  schema
+      .choice("adjoint", "Viscous adjoint term: `skew` (xi = 1) is stable for every penalty",
+              {"skew", "symmetric", "none"})
+      .otherwise("skew");
+}
+
+double adjoint_of(const Parameters& parameters) {
+  const std::string& choice = parameters.text("adjoint");
   if (choice == "skew") return 1;
   return choice == "symmetric" ? -1 : 0;
 }
-
-}  // namespace
 
 void declare_weak_condition(Schema& schema) {
   schema.number("slip_length", "Navier's: 0 is no slip, .inf leaves the tangential traction alone")
@@ -24,10 +32,7 @@ void declare_weak_condition(Schema& schema) {
   schema.vector_expression("wall_traction", "Tangential traction on the fluid that the slip comes on top of")
       .unit("Pa")
       .optional();
-  schema
-      .choice("adjoint", "Viscous adjoint term: `skew` (xi = 1) is stable for every penalty",
-              {"skew", "symmetric", "none"})
-      .otherwise("skew");
+  declare_adjoint(schema);
   Schema penalty("Factors of Nitsche's penalty, thesis (3.26), (3.27).");
   penalty.number("normal", "For the velocity across the boundary").otherwise("35").above(0);
   penalty.number("tangential", "For the velocity along it").otherwise("35").above(0);
@@ -40,7 +45,7 @@ WeakVelocity weak_condition(const Parameters& parameters, const Flow& flow,
                     std::move(velocity),
                     {},
                     parameters.number("slip_length"),
-                    adjoint_sign(parameters.text("adjoint")),
+                    adjoint_of(parameters),
                     parameters.object("penalty").number("normal"),
                     parameters.object("penalty").number("tangential")};
   if (parameters.has("wall_traction")) weak.traction = parameters.vector_expression("wall_traction");

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <type_traits>
 #include <vector>
 
-#include "seam/scene/expression.hpp"
-#include "seam/term/kernel_term.hpp"
+#include "seam/term/given_functions.hpp"
 
 /// Coupling of a fluid (side 0) with a deforming body (side 1) by Nitsche's method: what both
 /// representations of the traction share.
@@ -31,33 +29,9 @@ struct Jump {
   template <int count, int dim, class G>
   [[nodiscard]] Vec<count, G> at(const Point<dim, G>& x) const {
     Vec<count, G> value;
-    add<count, dim, G>(fluid, 1, x.position, x, value);
-    add<count, dim, G>(body, -1, x.partner_position, x, value);
+    if (!fluid.empty()) value += evaluate_at<count>(fluid, x.position, x);
+    if (!body.empty()) value -= evaluate_at<count>(body, x.partner_position, x);
     return value;
-  }
-
- private:
-  template <int count, int dim, class G>
-  static void add(const std::vector<Expression>& functions, double sign, const Vec<dim, G>& position,
-                  const Point<dim, G>& x, Vec<count, G>& value) {
-    if (functions.empty()) return;
-    double here[dim];
-    for (int i = 0; i < dim; ++i) here[i] = plain(position[i]);
-    for (int c = 0; c < count; ++c) value[c] += sign * functions[c](here, dim, x.time);
-    if constexpr (!std::is_same_v<G, double>) {
-      // Functions give values; for a tangent their differences are exact enough.
-      const double step = 1e-5 * x.cell_size;
-      for (int i = 0; i < dim; ++i) {
-        double slope[count];
-        here[i] += step;
-        for (int c = 0; c < count; ++c) slope[c] = functions[c](here, dim, x.time);
-        here[i] -= 2 * step;
-        for (int c = 0; c < count; ++c) slope[c] = (slope[c] - functions[c](here, dim, x.time)) / (2 * step);
-        here[i] += step;
-        const G moved = position[i] - here[i];
-        for (int c = 0; c < count; ++c) value[c] += (sign * slope[c]) * moved;
-      }
-    }
   }
 };
 

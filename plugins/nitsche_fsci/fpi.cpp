@@ -8,6 +8,7 @@
 
 #include "coupling_sides.hpp"
 #include "fluid_porous.hpp"
+#include "moving_fluid.hpp"
 #include "seam/interface/interface.hpp"
 
 namespace seam::fsci {
@@ -68,23 +69,19 @@ class Fpi final : public Coupling {
   [[nodiscard]] int extra_degree() const override { return 4; }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    for (const Operand& operand : operands)
-      static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
     Ties ties = ties_of(parameters_);
     if (substitution()) ties.tangential_penalty = std::numeric_limits<double>::infinity();
-    const FluidPorous kernel{flow_of(sides), mismatch(sides), parameters_.number("alpha"), ties};
-    return {{make_term(kernel, 1), operands}};
+    return FluidMesh<5>(sides, operands)
+        .terms(FluidPorous{flow_of(sides), mismatch(sides), parameters_.number("alpha"), ties});
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
     using Of = PorousMeasure::Of;
-    const auto quantity = [&](Of of) -> std::vector<SideTerm> {
-      return {{make_quantity(PorousMeasure{mismatch(sides), of}), operands}};
-    };
-    return {{"mismatch_across", quantity(Of::across)},
-            {"mismatch_along", quantity(Of::along)},
-            {"seepage", quantity(Of::seepage), MeasureOf::integral},
-            {"body_outflow", quantity(Of::body), MeasureOf::integral}};
+    const FluidMesh<5> mesh(sides, operands);
+    const auto of = [&](Of what) { return PorousMeasure{mismatch(sides), what}; };
+    return {mesh.measure("mismatch_across", of(Of::across)), mesh.measure("mismatch_along", of(Of::along)),
+            mesh.measure("seepage", of(Of::seepage), MeasureOf::integral),
+            mesh.measure("body_outflow", of(Of::body), MeasureOf::integral)};
   }
 
  private:

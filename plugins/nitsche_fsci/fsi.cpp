@@ -5,6 +5,7 @@
 
 #include "coupling_sides.hpp"
 #include "fluid_sided.hpp"
+#include "moving_fluid.hpp"
 #include "seam/interface/interface.hpp"
 #include "solid_sided.hpp"
 #include "trace_eigenvalue.hpp"
@@ -59,15 +60,16 @@ class Fsi final : public Coupling {
   }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    for (const Operand& operand : operands)
-      static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
+    const FluidMesh<3> mesh(sides, operands);
     const double adjoint = adjoint_of(parameters_);
     const Parameters& penalty = parameters_.object("penalty");
-    if (!solid_sided()) {
-      const FluidSided kernel{
-          flow_of(sides), jumps(), {parameters_.number("slip_length")}, ties_of(parameters_)};
-      return {{make_term(kernel, 1), operands}};
-    }
+    if (!solid_sided())
+      return mesh.terms(
+          FluidSided{flow_of(sides), jumps(), {parameters_.number("slip_length")}, ties_of(parameters_)});
+    if (mesh.moves())
+      throw Error(parameters_.where("stress"),
+                  fmt::format("`stress: solid` does not go with field '{}', whose mesh moves; use `fluid`",
+                              sides.fields[0]->name()));
     const auto law = sides.fields[1]->law("stress");
     if (!law)
       throw Error(
@@ -79,8 +81,8 @@ class Fsi final : public Coupling {
              {{1, std::make_shared<TraceEigenvalue>(law, scaling_of(parameters_))}}}};
   }
 
-  [[nodiscard]] std::vector<Measure> measures(const CouplingSides&) const override {
-    return {{"mismatch", {{make_quantity(VelocityMismatch{jumps()}), operands}}}};
+  [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
+    return {FluidMesh<3>(sides, operands).measure("mismatch", VelocityMismatch{jumps()})};
   }
 
  private:

@@ -5,6 +5,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "seam/assembly/domains.hpp"
@@ -155,6 +156,31 @@ void Extension::add(Block& block, int row, int column, double value, System& sys
                                    -value * (*states[l])[static_cast<std::size_t>(column) * block.size + c]});
 }
 
+/// Where a pocket opens that hangs on to the rest by a node or two, jumps do not say what its other nodes
+/// are: there they become like those of their cells.
+void Extension::add_means(int number, System& system) {
+  Block& block = field_->blocks()[number];
+  const Mesh& mesh = field_->mesh();
+  const int per_cell = block.space->nodes_per_cell();
+  double weight = 0;
+  for (const Entry& entry : system.matrix) weight = std::max(weight, std::abs(entry.value));
+  weight = mesh.communicator().max(weight);
+  // Small, so that it decides only what the jumps leave open.
+  weight = weight > 0 ? 1e-3 * weight : 1;
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    if (!field_->active_cells()[c]) continue;
+    for (int p = 0; p < field_->parts(c); ++p) {
+      const int* nodes = field_->cell_nodes(number, c, p);
+      for (int a = 0; a < per_cell; ++a)
+        for (int b = 0; b < per_cell && !block.known[nodes[a]]; ++b) {
+          if (a == b) continue;
+          add(block, nodes[a], nodes[a], weight, system);
+          add(block, nodes[a], nodes[b], -weight, system);
+        }
+    }
+  }
+}
+
 void Extension::extend_block(int number) {
   Block& block = field_->blocks()[number];
   const Space& space = *block.space;
@@ -166,16 +192,23 @@ void Extension::extend_block(int number) {
     Field& scalar = carrier(space.order());
     scalar.set_layout(field_->layout());
     scalar.occupy(field_->active_cells(), field_->cut());
-    // Few nodes come alive in a step: every rank solves for all of them, and all get the same bits.
-    System system;
-    assemble(block, scalar, system);
-    system.gather(communicator);
-    set_states(block, system);
+    for (const bool with_means : {false, true}) {
+      // Few nodes come alive in a step: every rank solves for all of them, and all get the same bits.
+      System system;
+      assemble(block, scalar, system);
+      if (with_means) add_means(number, system);
+      system.gather(communicator);
+      if (set_states(block, system)) break;
+      if (with_means)
+        throw StepRefused(
+            fmt::format("field '{}': known states do not determine those of {} nodes that came alive",
+                        field_->name(), system.index.size()));
+    }
   }
   block.known = block.active;
 }
 
-void Extension::set_states(Block& block, const System& system) {
+bool Extension::set_states(Block& block, const System& system) {
   const Space& space = *block.space;
   const auto states = levels(block);
   const Eigen::MatrixXd values = system.solve(static_cast<int>(states.size()) * block.size);
@@ -189,12 +222,9 @@ void Extension::set_states(Block& block, const System& system) {
         (*states[l])[static_cast<std::size_t>(n) * block.size + c] =
             values(found->second, static_cast<int>(l) * block.size + c);
   }
-  if (space.mesh().communicator().any(!complete))
-    throw StepRefused(
-        fmt::format("field '{}': known states do not determine those of {} nodes that came "
-                    "alive",
-                    field_->name(), system.index.size()));
+  if (space.mesh().communicator().any(!complete)) return false;
   for (auto* level : states) space.halo().update(*level, block.size);
+  return true;
 }
 
 }  // namespace seam

@@ -27,7 +27,9 @@ class Extension {
   void check_reach(int block) const;
   static void assemble(Block& block, Field& carrier, System& system);
   static void add(Block& block, int row, int column, double value, System& system);
-  void set_states(Block& block, const System& system);
+  void add_means(int block, System& system);
+  /// @return false when the system does not determine all new nodes
+  bool set_states(Block& block, const System& system);
   [[nodiscard]] Field& carrier(int order);
   void extend_block(int block);
   Field* field_;

@@ -95,7 +95,13 @@ class Simulation::Setup final : public InterfaceSetup {
     }
     degree = 2 * order + extra_degree;
   }
-  FieldCut& cut(int side) override { return simulation_.problem_.cut(*entries_[side]); }
+  FieldCut& cut(int side) override {
+    if (!displacement(side).empty())
+      throw Error(fmt::format(
+          "field '{}' moves its mesh, so that no body can be cut out of it; only fields on fixed meshes can",
+          entries_[side]->name));
+    return simulation_.problem_.cut(*entries_[side]);
+  }
   std::string displacement(int side) override {
     const Physics& physics = *entries_[side]->physics;
     return physics.support() == Support::mesh ? physics.displacement() : "";
