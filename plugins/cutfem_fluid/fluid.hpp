@@ -17,6 +17,7 @@ class Fluid final : public Physics {
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override;
   void build(FieldSetup& setup) const override;
   [[nodiscard]] std::string displacement() const override { return on_mesh_.moves ? "displacement" : ""; }
+  [[nodiscard]] bool moves_through_space() const override { return on_mesh_.moves; }
 
  private:
   void add_mesh_motion(FieldSetup& setup) const;

@@ -94,6 +94,9 @@ class Physics {
   virtual void build(FieldSetup& setup) const = 0;
   /// Name of the unknown or output that displaces the mesh in pictures, "" for none.
   [[nodiscard]] virtual std::string displacement() const { return ""; }
+  /// Whether the unknowns are functions of where the displaced mesh is now, as a fluid's on a moving mesh,
+  /// and not of where it was, as a solid's. Known solutions are compared with them there.
+  [[nodiscard]] virtual bool moves_through_space() const { return false; }
   /// For Support::point: how a point of the body moves.
   /// @param motion the unknowns of the point, in the order of unknowns()
   /// @param arm reference position relative to the body's centre, [dimension]

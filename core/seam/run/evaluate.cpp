@@ -10,25 +10,10 @@
 
 #include "seam/assembly/evaluator.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/run/unknown_quantity.hpp"
 
 namespace seam {
 namespace {
-
-/// The unknown itself (or its gradient) as a quantity of any number of components.
-class UnknownQuantity final : public Term {
- public:
-  UnknownQuantity(int components, Shape shape, int dimension)
-      : size_(components * rows(shape, dimension)),
-        signature_{{components}, {Slot{0, shape, Level::now}}, {}, {}, size_} {}
-  [[nodiscard]] const Signature& signature(int) const override { return signature_; }
-  void evaluate(const PointBatch& points, double* values, double*) const override {
-    std::copy_n(points.inputs, static_cast<std::ptrdiff_t>(points.count) * size_, values);
-  }
-
- private:
-  int size_;
-  Signature signature_;
-};
 
 BoundTerm bind(const NamedQuantity& quantity) {
   BoundTerm bound{quantity.term, {}};
@@ -315,88 +300,6 @@ std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const st
     }
   problem.communicator().sum(sum);
   return sum;
-}
-
-namespace {
-
-/// The difference between an unknown, or its gradient, and a known solution on one side of a domain.
-class Difference {
- public:
-  Difference(const IntegrationDomain& domain, int side, const std::string& unknown, double time)
-      : domain_(domain), field_(*domain.fields()[side]), side_(side), unknown_(unknown) {
-    at_.time = time;
-  }
-  /// @param along_normal take the gradient's component along the normal
-  [[nodiscard]] double norm(Shape shape, const std::vector<Expression>& known, bool along_normal) const {
-    const int dim = field_.mesh().dimension(), size = field_.place(unknown_).components;
-    const int components = size * rows(shape, dim);
-    if (static_cast<int>(known.size()) != components)
-      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown_, components,
-                              known.size()));
-    ElementEvaluator evaluator(
-        domain_, {{std::make_shared<UnknownQuantity>(size, shape, dim), {Operand{side_, unknown_}}}});
-    double square = 0;
-    std::vector<double> difference(components);
-    for (int e = 0; e < domain_.size(); ++e) {
-      const auto& values = evaluator.compute_values(e, at_);
-      const Element& element = evaluator.element();
-      for (int q = 0; q < element.points; ++q) {
-        const double* x = &element.sides[side_].position[static_cast<std::size_t>(q) * dim];
-        for (int c = 0; c < components; ++c)
-          difference[c] = values[static_cast<std::size_t>(q) * components + c] - known[c](x, dim, at_.time);
-        const double* normal = along_normal ? &element.normal[static_cast<std::size_t>(q) * dim] : nullptr;
-        square += element.weight[q] * square_of(difference, normal, dim);
-      }
-    }
-    return std::sqrt(field_.mesh().communicator().sum(square));
-  }
-
- private:
-  static double square_of(const std::vector<double>& difference, const double* normal, int dim) {
-    double square = 0;
-    for (std::size_t c = 0; c < difference.size(); c += normal ? dim : 1) {
-      double d = difference[c];
-      if (normal) d = std::inner_product(normal, normal + dim, &difference[c], 0.0);
-      square += d * d;
-    }
-    return square;
-  }
-  const IntegrationDomain& domain_;
-  const Field& field_;
-  int side_;
-  std::string unknown_;
-  TimePoint at_;
-};
-
-}  // namespace
-
-ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
-                       const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
-                       double time) {
-  const CellDomain cells(*entry.field, 2 * highest_order(entry) + 4);
-  const Difference difference(cells, 0, unknown, time);
-  ErrorNorms norms;
-  norms.l2 = difference.norm(Shape::value, exact, false);
-  if (!gradient.empty()) norms.h1 = difference.norm(Shape::gradient, gradient, false);
-  return norms;
-}
-
-ErrorNorms interface_error_norms(const std::vector<InterfacePart>& interface, const FieldEntry& entry,
-                                 const std::string& unknown, const std::vector<Expression>& exact,
-                                 const std::vector<Expression>& gradient, double time) {
-  ErrorNorms norms;
-  if (!gradient.empty()) norms.h1 = 0;
-  for (const InterfacePart& part : interface) {
-    if (!part.bounds_field) continue;
-    const std::vector<Field*> fields = part.domain->fields();
-    const auto side = std::find(fields.begin(), fields.end(), entry.field.get());
-    if (side == fields.end())
-      throw Error(fmt::format("field '{}' lies on no side of {}", entry.name, part.domain->description()));
-    const Difference difference(*part.domain, static_cast<int>(side - fields.begin()), unknown, time);
-    norms.l2 = std::hypot(norms.l2, difference.norm(Shape::value, exact, false));
-    if (norms.h1) norms.h1 = std::hypot(*norms.h1, difference.norm(Shape::gradient, gradient, true));
-  }
-  return norms;
 }
 
 }  // namespace seam

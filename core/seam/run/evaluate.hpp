@@ -64,18 +64,4 @@ class ProbePoint {
 std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const std::string& unknown,
                              const std::vector<std::string>& boundaries);
 
-/// L2 norm of (unknown - exact) and of (gradient - exact gradient) over the field's cells. Collective.
-struct ErrorNorms {
-  double l2 = 0;
-  std::optional<double> h1;  ///< on an interface that of the normal derivative
-};
-ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
-                       const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
-                       double time);
-/// The same over an interface that one of whose sides is the field. Functions are evaluated at points of the
-/// field's mesh; the normal is the interface's. Collective.
-ErrorNorms interface_error_norms(const std::vector<InterfacePart>& interface, const FieldEntry& entry,
-                                 const std::string& unknown, const std::vector<Expression>& exact,
-                                 const std::vector<Expression>& gradient, double time);
-
 }  // namespace seam

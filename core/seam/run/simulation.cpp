@@ -10,6 +10,7 @@
 #include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
 #include "seam/run/derived.hpp"
+#include "seam/run/error_norms.hpp"
 #include "seam/run/progress.hpp"
 
 namespace seam {
