@@ -12,7 +12,7 @@
 /// The weak form of a porous body whose skeleton deforms and whose pores are filled with an incompressible
 /// fluid: the balances (2.43), (2.44) and (2.46) of the thesis, term by term, pulled back to the reference
 /// configuration. With w = v - du/dt, m = J phi, C = cof F = J F^-T:
-///   mass:     (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w>
+///   mass:     (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w> - (dp, q)
 ///   fluid:    (dv, rho_F J (dv/dt - grad v du/dt)) - (grad0 dv, p C) + (dv, mu phi C K^-1 C^T w) - (dv,
 ///   rho_F J b) mixture:  (du, rho_S d2u/dt2) + (grad0 du, P_skeleton - p' C) - (du, phi C grad0 p) - (du, mu
 ///   phi^2 C K^-1 C^T w)
@@ -122,6 +122,18 @@ struct Seepage {
     const T phi = porosity.fluid_volume(d.invariant[2], s.value(p{})) / d.invariant[2];
     const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
     r.value(p{}) += phi * dot(d.cofactor * x.normal, w);
+  }
+};
+
+/// -(dp, q): fluid that comes into the pores from elsewhere; it brings no momentum.
+struct MassSource {
+  using Reads = Slots<>;
+  using Tests = Slots<Value<Scalar<0>>>;
+  Expression source;  ///< q, m^3 of fluid per reference volume and second, of the place in the reference
+                      ///< configuration
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
+    r.value(Scalar<0>{}) -= source(x.position.c.data(), dim, x.time);
   }
 };
 

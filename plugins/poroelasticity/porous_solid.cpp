@@ -136,6 +136,8 @@ void PorousSolid::add_loads(FieldSetup& setup) const {
         return make_term(FluidLoad{force, flow_.density}, 1);
       },
       make_term(NodalFluidLoad{flow_.density}, 1), {"displacement", "velocity"});
+  if (parameters_.has("mass_source"))
+    setup.add_cell_term(make_term(MassSource{parameters_.expression("mass_source")}, 1), {"pressure"});
 }
 
 void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,

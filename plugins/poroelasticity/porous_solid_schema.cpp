@@ -80,7 +80,13 @@ Schema PorousSolid::schema() {
   s.object("stabilisation", "Factors of the interior penalty", stabilisation).otherwise("{}");
   s.vector_expression("body_force", "On the mixture, per mass of the skeleton").unit("m/s^2").optional();
   s.vector_expression("fluid_body_force", "On the fluid in the pores, per mass").unit("m/s^2").optional();
-  s.boolean("interpolate_body_force", "Take both at the nodes and interpolate, instead of at every point")
+  s.expression(
+       "mass_source",
+       "Volume of fluid that comes into the pores per reference volume and second; it brings no momentum")
+      .unit("1/s")
+      .optional();
+  s.boolean("interpolate_body_force",
+            "Take body forces at the nodes and interpolate, instead of at every point")
       .otherwise("false");
   s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction and drained",
          boundary_schema())
