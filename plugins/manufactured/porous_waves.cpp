@@ -77,7 +77,6 @@ class PorousWaves final : public Function {
                                          {"fluid_force", dim},
                                          {"mixture_force", dim},
                                          {"right_traction", dim},
-                                         {"velocity_y", 1},
                                          {"top_seepage", 1}};
     return parts;
   }
@@ -123,9 +122,6 @@ class PorousWaves final : public Function {
         for (int i = 0; i < dim; ++i) value[i] = stress(i, 0);
         return;
       }
-      case 12:
-        *value = velocity(here)[1];
-        return;
       default: {
         // phi w.n with n da = J F^-T N dA
         const State<double> s = at(once, here);
@@ -281,7 +277,7 @@ Schema schema() {
       "all at a material point. Parts: displacement, displacement_gradient, displacement_rate, velocity (in "
       "the pores), velocity_gradient, pressure, pressure_gradient, porosity, mass_source (per reference "
       "volume), fluid_force (per mass), mixture_force (per mass of the skeleton), right_traction (on the "
-      "mixture per reference area, where the boundary faces +x in the reference configuration), velocity_y, "
+      "mixture per reference area, where the boundary faces +x in the reference configuration), and "
       "top_seepage (out of a boundary that faces +y in the reference configuration, per current area).");
   s.choice("in_space", "`straight`: linear finite elements hold all three unknowns exactly",
            {"wavy", "straight"})

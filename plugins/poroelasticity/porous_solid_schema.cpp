@@ -16,7 +16,8 @@ Schema boundary_schema() {
       .optional();
   s.vector_expression(
        "velocity",
-       "Prescribed velocity in the pores, as 0 across a wall at rest; null leaves a component free")
+       "Prescribed velocity in the pores, as 0 across a wall at rest along the axes; null leaves a component "
+       "free")
       .unit("m/s")
       .optional();
   s.expression(
@@ -24,6 +25,12 @@ Schema boundary_schema() {
        "Pressure of the fluid outside that pores are open to; default 0, where the velocity across is free")
       .unit("Pa")
       .optional();
+  s.expression("seepage",
+               "Volume of fluid that leaves the body relative to the skeleton, per current area and second; "
+               "imposed weakly, on walls that tilt, too; 0 is tight")
+      .unit("m/s")
+      .optional();
+  s.number("seepage_penalty", "gamma of `seepage`").otherwise("1").at_least(0);
   return s;
 }
 
