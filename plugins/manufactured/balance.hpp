@@ -23,18 +23,22 @@ inline Event<Twice> twice(const double* x, double t) {
   return {Twice(Once(x[0], 0), 0), Twice(Once(x[1], 1), 1), Twice(Once(t, 2), 2)};
 }
 
-/// Of a vector whose entries are differentiated by x, y, t.
-template <class T>
-Mat<2, 2, T> space_gradient(const Vec<2, Fad<3, T>>& field) {
-  Mat<2, 2, T> gradient;
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) gradient(i, j) = field[i].d[j];
+/// Of a vector whose entries are differentiated by place and time.
+template <int dim, class T>
+Mat<dim, dim, T> space_gradient(const Vec<dim, Fad<dim + 1, T>>& field) {
+  Mat<dim, dim, T> gradient;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) gradient(i, j) = field[i].d[j];
   return gradient;
 }
 
 /// Row by row: d T_ij / dx_j.
-inline Vec<2, double> divergence(const Mat<2, 2, Once>& tensor) {
-  return {tensor(0, 0).d[0] + tensor(0, 1).d[1], tensor(1, 0).d[0] + tensor(1, 1).d[1]};
+template <int dim>
+Vec<dim, double> divergence(const Mat<dim, dim, Fad<dim + 1>>& tensor) {
+  Vec<dim, double> result;
+  for (int i = 0; i < dim; ++i)
+    for (int j = 0; j < dim; ++j) result[i] += tensor(i, j).d[j];
+  return result;
 }
 
 /// An incompressible Newtonian fluid: sigma = -p I + 2 mu eps(v).
@@ -64,10 +68,10 @@ struct NeoHookean {
   NeoHookean(double rho, double young, double poisson)
       : density(rho), c(young / (4 * (1 + poisson))), beta(poisson / (1 - 2 * poisson)) {}
   /// First Piola-Kirchhoff stress F S = 2c (F - J^(-2 beta) F^-T).
-  template <class T>
-  [[nodiscard]] Mat<2, 2, T> piola(const Mat<2, 2, T>& displacement_gradient) const {
+  template <int dim, class T>
+  [[nodiscard]] Mat<dim, dim, T> piola(const Mat<dim, dim, T>& displacement_gradient) const {
     using std::pow;
-    const Mat<2, 2, T> f = displacement_gradient + identity<2>();
+    const Mat<dim, dim, T> f = displacement_gradient + identity<dim>();
     const T volume = determinant(f);
     const T shrink = pow(volume, -2 * beta);
     return (2 * c) * (f - shrink * transpose(inverse(f)));

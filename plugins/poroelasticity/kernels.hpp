@@ -12,7 +12,7 @@
 /// The weak form of a porous body whose skeleton deforms and whose pores are filled with an incompressible
 /// fluid: the balances (2.43), (2.44) and (2.46) of the thesis, term by term, pulled back to the reference
 /// configuration. With w = v - du/dt, m = J phi, C = cof F = J F^-T:
-///   mass:     (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w>
+///   mass:     (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w> - (dp, q)
 ///   fluid:    (dv, rho_F J (dv/dt - grad v du/dt)) - (grad0 dv, p C) + (dv, mu phi C K^-1 C^T w) - (dv,
 ///   rho_F J b) mixture:  (du, rho_S d2u/dt2) + (grad0 du, P_skeleton - p' C) - (du, phi C grad0 p) - (du, mu
 ///   phi^2 C K^-1 C^T w)
@@ -24,6 +24,18 @@ namespace seam::poro {
 using u = Vector<0>;
 using v = Vector<1>;
 using p = Scalar<2>;
+
+/// How hardly fluid moves through the undeformed pores in a step, Pa s/m^2: resistance and inertia, thesis
+/// (2.124).
+struct PoreScale {
+  double resistance;  ///< mu phi_0/K_0, Pa s/m^2
+  double density;     ///< of the fluid, kg/m^3
+  template <int dim>
+  [[nodiscard]] double operator()(const Point<dim>& x) const {
+    constexpr double c_t = 1.0 / 12;
+    return resistance + (x.step > 0 ? c_t * density / (x.theta * x.step) : 0.0);
+  }
+};
 
 /// What the fluid in the pores is, and what holds it back.
 struct PoreFlow {
@@ -39,6 +51,11 @@ struct PoreFlow {
     for (int i = 0; i < dim; ++i)
       for (int j = 0; j < dim; ++j) result.inverse_permeability(i, j) = inverse_permeability[i * 3 + j];
     return result;
+  }
+  [[nodiscard]] PoreScale scale(int dimension) const {
+    double trace = 0;
+    for (int d = 0; d < dimension; ++d) trace += inverse_permeability[d * 3 + d];
+    return {viscosity * porosity.initial * trace / dimension, density};
   }
   /// mu phi C K^-1 C^T w, Pa/m of reference volume: what the skeleton takes from the fluid, over phi.
   template <int dim, class T>
@@ -125,6 +142,18 @@ struct Seepage {
   }
 };
 
+/// -(dp, q): fluid that comes into the pores from elsewhere; it brings no momentum.
+struct MassSource {
+  using Reads = Slots<>;
+  using Tests = Slots<Value<Scalar<0>>>;
+  Expression source;  ///< q, m^3 of fluid per reference volume and second, of the place in the reference
+                      ///< configuration
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>&, Test<dim, T, Tests>& r) const {
+    r.value(Scalar<0>{}) -= source(x.position.c.data(), dim, x.time);
+  }
+};
+
 /// Momentum of the fluid in the pores.
 struct PoreMomentum {
   using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Rate<v>, Gradient<v>, Value<p>>;
@@ -201,6 +230,32 @@ struct PorePressure {
   }
 };
 
+/// Given flow through the current boundary, phi w.n = j, imposed weakly. With a = C N, the current area
+/// vector:
+///   <dv, p a> - <dp, phi a.w - j |a|> + gamma h Phi <dv, (phi a.w - j |a|) n>.
+/// The first makes the fluid's momentum consistent where nothing is said of the pressure, the second turns
+/// the outflow in the balance of mass (Seepage) into the given one, so that mass balances to rounding. Tested
+/// with phi w and p the two cancel: stable for every gamma >= 0.
+struct WeakSeepage {
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Value<p>>;
+  using Tests = Slots<Value<v>, Value<p>>;
+  Porosity porosity;
+  PoreScale scale;
+  Expression flow;  ///< j, m/s, out of the body
+  double penalty;   ///< gamma
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    using std::sqrt;
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T phi = porosity.fluid_volume(d.invariant[2], s.value(p{})) / d.invariant[2];
+    const Vec<dim, T> area = d.cofactor * x.normal, w = s.value(v{}) - s.rate(u{});
+    const T size = sqrt(dot(area, area));
+    const T miss = phi * dot(area, w) - flow(x.position.c.data(), dim, x.time) * size;
+    r.value(v{}) += (s.value(p{}) + (penalty * x.trace_size * scale(x)) * miss / size) * area;
+    r.value(p{}) -= miss;
+  }
+};
+
 /// <du, p N> on the current boundary: the same pressure on the mixture.
 struct MixturePressure {
   using Reads = Slots<Gradient<u>>;
@@ -222,14 +277,12 @@ struct InteriorPenalty {
   using p1 = Scalar<3>;
   using Reads = Slots<NormalDerivative<v0>, NormalDerivative<v1>, NormalDerivative<p0>, NormalDerivative<p1>>;
   using Tests = Reads;
-  double resistance;            ///< mu phi_0/K_0, Pa s/m^2
-  double density;               ///< of the fluid, kg/m^3
+  PoreScale scale;
   double pressure, divergence;  ///< gamma_p, gamma_div
   template <int dim, class T>
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    constexpr double c_t = 1.0 / 12;
     const double h = x.cell_size;
-    const double phi = h * h * (resistance + (x.step > 0 ? c_t * density / (x.theta * x.step) : 0.0));
+    const double phi = h * h * scale(x);
     const Vec<dim, T> jump = s.normal_derivative(v0{}) - s.normal_derivative(v1{});
     const Vec<dim, T> on_v = (divergence * h * phi * dot(jump, x.normal)) * x.normal;
     const T on_p = (pressure * h * h * h / phi) * (s.normal_derivative(p0{}) - s.normal_derivative(p1{}));

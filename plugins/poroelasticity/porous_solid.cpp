@@ -100,11 +100,8 @@ void PorousSolid::add_balances(FieldSetup& setup) const {
 
 void PorousSolid::add_stabilisation(FieldSetup& setup) const {
   const Parameters& factors = parameters_.object("stabilisation");
-  double trace = 0;
-  for (int d = 0; d < setup.dimension(); ++d) trace += flow_.inverse_permeability[d * 3 + d];
-  const double resistance = flow_.viscosity * flow_.porosity.initial * trace / setup.dimension();
   setup.add_interior_face_term(
-      make_term(InteriorPenalty{resistance, flow_.density, factors.number("pressure"),
+      make_term(InteriorPenalty{flow_.scale(setup.dimension()), factors.number("pressure"),
                                 factors.number("divergence")}),
       {{0, "velocity"}, {1, "velocity"}, {0, "pressure"}, {1, "pressure"}});
 }
@@ -136,6 +133,8 @@ void PorousSolid::add_loads(FieldSetup& setup) const {
         return make_term(FluidLoad{force, flow_.density}, 1);
       },
       make_term(NodalFluidLoad{flow_.density}, 1), {"displacement", "velocity"});
+  if (parameters_.has("mass_source"))
+    setup.add_cell_term(make_term(MassSource{parameters_.expression("mass_source")}, 1), {"pressure"});
 }
 
 void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,
@@ -153,6 +152,18 @@ void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,
   if (condition.has("pore_pressure"))
     setup.add_boundary_term(name, make_term(PorePressure{condition.expression("pore_pressure")}, 1),
                             {"displacement", "velocity"});
+  if (!condition.has("seepage")) return;
+  for (const std::string other : {"velocity", "pore_pressure"})
+    if (condition.has(other))
+      throw Error(condition.where("seepage"), "found `seepage` and `" + other +
+                                                  "` on the same boundary, both of which say what flows "
+                                                  "through it; give one of them");
+  setup.add_boundary_term(
+      name,
+      make_term(WeakSeepage{flow_.porosity, flow_.scale(setup.dimension()), condition.expression("seepage"),
+                            condition.number("seepage_penalty")},
+                4),
+      all_unknowns);
 }
 
 void PorousSolid::set_initial(FieldSetup& setup) const {

@@ -16,7 +16,8 @@ Schema boundary_schema() {
       .optional();
   s.vector_expression(
        "velocity",
-       "Prescribed velocity in the pores, as 0 across a wall at rest; null leaves a component free")
+       "Prescribed velocity in the pores, as 0 across a wall at rest along the axes; null leaves a component "
+       "free")
       .unit("m/s")
       .optional();
   s.expression(
@@ -24,6 +25,12 @@ Schema boundary_schema() {
        "Pressure of the fluid outside that pores are open to; default 0, where the velocity across is free")
       .unit("Pa")
       .optional();
+  s.expression("seepage",
+               "Volume of fluid that leaves the body relative to the skeleton, per current area and second; "
+               "imposed weakly, on walls that tilt, too; 0 is tight")
+      .unit("m/s")
+      .optional();
+  s.number("seepage_penalty", "gamma of `seepage`").otherwise("1").at_least(0);
   return s;
 }
 
@@ -80,7 +87,13 @@ Schema PorousSolid::schema() {
   s.object("stabilisation", "Factors of the interior penalty", stabilisation).otherwise("{}");
   s.vector_expression("body_force", "On the mixture, per mass of the skeleton").unit("m/s^2").optional();
   s.vector_expression("fluid_body_force", "On the fluid in the pores, per mass").unit("m/s^2").optional();
-  s.boolean("interpolate_body_force", "Take both at the nodes and interpolate, instead of at every point")
+  s.expression(
+       "mass_source",
+       "Volume of fluid that comes into the pores per reference volume and second; it brings no momentum")
+      .unit("1/s")
+      .optional();
+  s.boolean("interpolate_body_force",
+            "Take body forces at the nodes and interpolate, instead of at every point")
       .otherwise("false");
   s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction and drained",
          boundary_schema())

@@ -33,6 +33,39 @@ TEST_CASE("a porous body loses in each step what flows out of it, at any strain"
     CHECK(std::abs(volume[k - 1] - volume[k] - (time[k] - time[k - 1]) * outflow[k]) < 1e-9 * volume.front());
 }
 
+TEST_CASE("walls of a porous body may be made tight weakly") {
+  const Folder first, second;
+  const std::string
+      coarse = "--set time.end=2 --set checks=[] ",
+      weak =
+          "--set 'fields.column.boundary.0={on: [x_min, x_max], displacement: [0, null], seepage: "
+          "0}' --set 'fields.column.boundary.1={on: y_min, displacement: [0, 0], seepage: 0}'";
+  const std::string strong_series = series_of("squeezed_column", first, coarse),
+                    weak_series = series_of("squeezed_column", second, coarse + weak);
+  const std::vector<double> time = column(weak_series, "time"),
+                            volume = column(weak_series, "column.fluid_volume"),
+                            outflow = column(weak_series, "outflow");
+  for (const auto* series : {"top", "column.fluid_volume", "base", "outflow"}) {
+    INFO(series);
+    const std::vector<double> one = column(strong_series, series), other = column(weak_series, series);
+    double size = 0, most = 0;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      size = std::max(size, std::abs(one[k]));
+      most = std::max(most, std::abs(one[k] - other[k]));
+    }
+    CHECK(most < 0.01 * size);
+  }
+  for (std::size_t k = 1; k < time.size(); ++k)
+    CHECK(std::abs(volume[k - 1] - volume[k] - (time[k] - time[k - 1]) * outflow[k]) < 1e-9 * volume.front());
+}
+
+TEST_CASE("two conditions on what flows through one boundary are refused") {
+  const Result run = seam("run " SEAM_SOURCE_DIR
+                          "/configs/poro/turned_block.yaml --set fields.block.boundary.0.velocity=[0,0]");
+  CHECK(run.code != 0);
+  CHECK_THAT(run.output, Catch::Contains("found `seepage` and `velocity` on the same boundary"));
+}
+
 TEST_CASE("a filter that bends in a flow stores in each step what seeps into it") {
   const Folder folder;
   const std::string series = series_of("filter", folder);
