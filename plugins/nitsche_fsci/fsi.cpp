@@ -68,7 +68,7 @@ class Fsi final : public Coupling {
           flow_of(sides), jumps(), {parameters_.number("slip_length")}, ties_of(parameters_)};
       return {{make_term(kernel, 1), operands}};
     }
-    const auto law = sides.fields[1]->law("stress");
+    const auto law = sides.law(1, "stress");
     if (!law)
       throw Error(
           fmt::format("`stress: solid` needs a body that makes its stress known; field '{}' does not (a "
