@@ -56,7 +56,7 @@ Jump jump_of(const Parameters& jumps, const std::string& key, bool tensor) {
 
 std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side) {
   static_cast<void>(sides.fields.at(side)->place("displacement"));
-  std::shared_ptr<const Law> law = sides.fields[side]->law("stress");
+  std::shared_ptr<const Law> law = sides.law(side, "stress");
   if (!law)
     throw Error(
         fmt::format("contact needs bodies that make their stress known; field '{}' does not (a solid "

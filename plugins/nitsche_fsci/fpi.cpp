@@ -87,7 +87,7 @@ class Fpi final : public Coupling {
  private:
   [[nodiscard]] bool substitution() const { return parameters_.text("tangential") == "substitution"; }
   [[nodiscard]] PorousMismatch mismatch(const CouplingSides& sides) const {
-    const std::shared_ptr<const Law> pores = sides.fields[1]->law("pores");
+    const std::shared_ptr<const Law> pores = sides.law(1, "pores");
     if (!pores)
       throw Error(
           fmt::format("`fpi` needs a porous body; field '{}' does not make known what its pores are "

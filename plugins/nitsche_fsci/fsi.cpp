@@ -70,7 +70,7 @@ class Fsi final : public Coupling {
       throw Error(parameters_.where("stress"),
                   fmt::format("`stress: solid` does not go with field '{}', whose mesh moves; use `fluid`",
                               sides.fields[0]->name()));
-    const auto law = sides.fields[1]->law("stress");
+    const auto law = sides.law(1, "stress");
     if (!law)
       throw Error(
           fmt::format("`stress: solid` needs a body that makes its stress known; field '{}' does not (a "

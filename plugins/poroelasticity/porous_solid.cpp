@@ -5,6 +5,7 @@
 
 #include "quantities.hpp"
 #include "seam/physics/law.hpp"
+#include "seam/physics/regions.hpp"
 
 namespace seam::poro {
 namespace {
@@ -53,22 +54,31 @@ Mat<3, 3, double> permeability(const Parameters& parameters) {
 
 PorousSolid::PorousSolid(const Parameters& parameters, const Registry& registry)
     : parameters_(parameters),
-      skeleton_(registry.create<Potential>("hyperelastic", parameters.object("material"))),
-      permeability_(parameters.dimension() == 2 ? permeability<2>(parameters) : permeability<3>(parameters)),
-      flow_{parameters.number("fluid_density"), parameters.number("viscosity"),
-            porosity_of(parameters.object("porosity")), parameters.boolean("kozeny_carman"),
-            inverse(permeability_).c},
-      density_(parameters.number("density")),
+      fluid_density_(parameters.number("fluid_density")),
+      viscosity_(parameters.number("viscosity")),
       nodal_forces_(parameters.boolean("interpolate_body_force")),
       order_(static_cast<int>(parameters.integer("order"))) {
-  if (skeleton_->arguments() != 3)
-    throw Error(parameters.where("material"), "this material does not take the three invariants I1, I2, J");
+  for (const MaterialOfRegion& of : materials(parameters, {"material", "porosity", "permeability"})) {
+    PotentialPointer skeleton = registry.create<Potential>("hyperelastic", of("material").object("material"));
+    if (skeleton->arguments() != 3)
+      throw Error(of("material").where("material"),
+                  "this material does not take the three invariants I1, I2, J");
+    const Parameters& given = of("permeability");
+    const Mat<3, 3, double> k = parameters.dimension() == 2 ? permeability<2>(given) : permeability<3>(given);
+    const PoreFlow flow{fluid_density_, viscosity_, porosity_of(of("porosity").object("porosity")),
+                        of("kozeny_carman").boolean("kozeny_carman"), inverse(k).c};
+    regions_.push_back({std::move(skeleton), k, flow, of("density").number("density")});
+  }
+  has_mass_ = holds_in_all(
+      parameters, regions_, [](const Region& r) { return r.density > 0; }, "a `density`");
+  porosity_changes_ = holds_in_all(
+      parameters, regions_, [](const Region& r) { return !r.flow.porosity.given; }, "`porosity: {bulk}`");
 }
 
 std::vector<Unknown> PorousSolid::unknowns(int dimension) const {
-  std::vector<Unknown> result{{"displacement", dimension, order_, density_ > 0 ? 2 : 1, "m"},
-                              {"velocity", dimension, order_, flow_.density > 0 ? 1 : 0, "m/s"},
-                              {"pressure", 1, 1, flow_.porosity.given ? 0 : 1, "Pa"}};
+  std::vector<Unknown> result{{"displacement", dimension, order_, has_mass_ ? 2 : 1, "m"},
+                              {"velocity", dimension, order_, fluid_density_ > 0 ? 1 : 0, "m/s"},
+                              {"pressure", 1, 1, porosity_changes_ ? 1 : 0, "Pa"}};
   for (const std::string force : {"body_force", "fluid_body_force"})
     if (nodal_forces_ && parameters_.has(force))
       result.push_back({force, dimension, order_, 0, "m/s^2", true});
@@ -76,63 +86,68 @@ std::vector<Unknown> PorousSolid::unknowns(int dimension) const {
 }
 
 void PorousSolid::build(FieldSetup& setup) const {
-  setup.publish("density", flow_.density);
-  setup.publish("viscosity", flow_.viscosity);
-  setup.publish("pores", std::make_shared<LawOf<PoresFormula>>(PoresFormula{flow_, permeability_.c}));
-  add_balances(setup);
-  if (order_ == 1) add_stabilisation(setup);
+  divide(setup, parameters_);
+  setup.publish("density", fluid_density_);
+  setup.publish("viscosity", viscosity_);
+  for (std::size_t k = 0; k < regions_.size(); ++k)
+    setup.within(static_cast<int>(k), [&, &region = regions_[k]] {
+      setup.publish("pores",
+                    std::make_shared<LawOf<PoresFormula>>(PoresFormula{region.flow, region.permeability.c}));
+      add_balances(setup, region);
+      if (order_ == 1) add_stabilisation(setup, region);
+      add_outputs(setup, region);
+    });
   add_loads(setup);
   for (const Parameters& condition : parameters_.list("boundary"))
     for (const std::string& name : condition.names("on")) add_boundary(setup, condition, name);
   set_initial(setup);
-  add_outputs(setup);
 }
 
-void PorousSolid::add_balances(FieldSetup& setup) const {
+void PorousSolid::add_balances(FieldSetup& setup, const Region& region) const {
   const bool conservative = parameters_.text("storage") == "conservative";
-  setup.add_cell_term(make_term(Storage{flow_.porosity, conservative}), all_unknowns);
-  setup.add_cell_term(make_term(PoreMomentum{flow_}), all_unknowns);
-  setup.add_cell_term(make_term(Mixture{skeleton_, flow_}), all_unknowns);
-  if (density_ > 0) setup.add_cell_term(make_term(BodyInertia{density_}), {"displacement"});
-  for (const std::string& name : setup.boundaries())
-    setup.add_boundary_term(name, make_term(Seepage{flow_.porosity}, 4), all_unknowns);
+  const PoreFlow& flow = region.flow;
+  setup.add_cell_term(make_term(Storage{flow.porosity, conservative}), all_unknowns);
+  setup.add_cell_term(make_term(PoreMomentum{flow}), all_unknowns);
+  setup.add_cell_term(make_term(Mixture{region.skeleton, flow}), all_unknowns);
+  if (region.density > 0) setup.add_cell_term(make_term(BodyInertia{region.density}), {"displacement"});
+  setup.add_surface_term(make_term(Seepage{flow.porosity}, 4), all_unknowns);
 }
 
-void PorousSolid::add_stabilisation(FieldSetup& setup) const {
+void PorousSolid::add_stabilisation(FieldSetup& setup, const Region& region) const {
   const Parameters& factors = parameters_.object("stabilisation");
   setup.add_interior_face_term(
-      make_term(InteriorPenalty{flow_.scale(setup.dimension()), factors.number("pressure"),
+      make_term(InteriorPenalty{region.flow.scale(setup.dimension()), factors.number("pressure"),
                                 factors.number("divergence")}),
       {{0, "velocity"}, {1, "velocity"}, {0, "pressure"}, {1, "pressure"}});
 }
 
 void PorousSolid::add_loads(FieldSetup& setup) const {
-  const auto add = [&](const std::string& key, double density, const std::string& missing, const auto& term,
-                       const auto& nodal, const std::vector<std::string>& operands) {
-    if (!parameters_.has(key)) return;
-    if (density == 0)
+  const auto check = [&](const std::string& key, bool has_mass, const std::string& missing) {
+    if (!has_mass)
       throw Error(parameters_.where(key),
                   "a force per mass acts on something without mass: give a `" + missing + "`");
-    const std::vector<Expression>& force = parameters_.vector_expression(key);
-    if (!nodal_forces_) {
-      setup.add_cell_term(term(force), operands);
-      return;
-    }
-    for (int d = 0; d < setup.dimension(); ++d) setup.give(key, d, force[d]);
-    std::vector<std::string> with_force = operands;
-    with_force.push_back(key);
-    setup.add_cell_term(nodal, with_force);
+    for (int d = 0; nodal_forces_ && d < setup.dimension(); ++d)
+      setup.give(key, d, parameters_.vector_expression(key)[d]);
+    return parameters_.vector_expression(key);
   };
-  add("body_force", density_, "density",
-      [&](const std::vector<Expression>& force) {
-        return make_term(BodyLoad{force, density_}, 1);
-      },
-      make_term(NodalBodyLoad{density_}, 1), {"displacement"});
-  add("fluid_body_force", flow_.density, "fluid_density",
-      [&](const std::vector<Expression>& force) {
-        return make_term(FluidLoad{force, flow_.density}, 1);
-      },
-      make_term(NodalFluidLoad{flow_.density}, 1), {"displacement", "velocity"});
+  if (parameters_.has("body_force")) {
+    const std::vector<Expression> force = check("body_force", has_mass_, "density");
+    for (std::size_t k = 0; k < regions_.size(); ++k)
+      setup.within(static_cast<int>(k), [&, density = regions_[k].density] {
+        if (nodal_forces_)
+          setup.add_cell_term(make_term(NodalBodyLoad{density}, 1), {"displacement", "body_force"});
+        else
+          setup.add_cell_term(make_term(BodyLoad{force, density}, 1), {"displacement"});
+      });
+  }
+  if (parameters_.has("fluid_body_force")) {
+    const std::vector<Expression> force = check("fluid_body_force", fluid_density_ > 0, "fluid_density");
+    if (nodal_forces_)
+      setup.add_cell_term(make_term(NodalFluidLoad{fluid_density_}, 1),
+                          {"displacement", "velocity", "fluid_body_force"});
+    else
+      setup.add_cell_term(make_term(FluidLoad{force, fluid_density_}, 1), {"displacement", "velocity"});
+  }
   if (parameters_.has("mass_source"))
     setup.add_cell_term(make_term(MassSource{parameters_.expression("mass_source")}, 1), {"pressure"});
 }
@@ -158,12 +173,15 @@ void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,
       throw Error(condition.where("seepage"), "found `seepage` and `" + other +
                                                   "` on the same boundary, both of which say what flows "
                                                   "through it; give one of them");
-  setup.add_boundary_term(
-      name,
-      make_term(WeakSeepage{flow_.porosity, flow_.scale(setup.dimension()), condition.expression("seepage"),
-                            condition.number("seepage_penalty")},
-                4),
-      all_unknowns);
+  for (std::size_t k = 0; k < regions_.size(); ++k)
+    setup.within(static_cast<int>(k), [&, &flow = regions_[k].flow] {
+      setup.add_boundary_term(
+          name,
+          make_term(WeakSeepage{flow.porosity, flow.scale(setup.dimension()), condition.expression("seepage"),
+                                condition.number("seepage_penalty")},
+                    4),
+          all_unknowns);
+    });
 }
 
 void PorousSolid::set_initial(FieldSetup& setup) const {
@@ -178,11 +196,11 @@ void PorousSolid::set_initial(FieldSetup& setup) const {
   if (initial.has("pressure")) setup.set_initial("pressure", 0, initial.expression("pressure"));
 }
 
-void PorousSolid::add_outputs(FieldSetup& setup) const {
-  setup.add_output("porosity", make_quantity(PorosityValue{flow_.porosity}), {"displacement", "pressure"});
-  setup.add_output("seepage", make_quantity(SeepageVelocity{flow_.porosity}), all_unknowns);
-  setup.add_integral("fluid_volume", make_quantity(FluidVolume{flow_.porosity}),
-                     {"displacement", "pressure"});
+void PorousSolid::add_outputs(FieldSetup& setup, const Region& region) {
+  const Porosity& porosity = region.flow.porosity;
+  setup.add_output("porosity", make_quantity(PorosityValue{porosity}), {"displacement", "pressure"});
+  setup.add_output("seepage", make_quantity(SeepageVelocity{porosity}), all_unknowns);
+  setup.add_integral("fluid_volume", make_quantity(FluidVolume{porosity}), {"displacement", "pressure"});
   setup.add_integral("volume", make_quantity(CurrentVolume{}), {"displacement"});
 }
 

@@ -19,18 +19,25 @@ class PorousSolid final : public Physics {
   [[nodiscard]] std::string displacement() const override { return "displacement"; }
 
  private:
-  void add_balances(FieldSetup& setup) const;
-  void add_stabilisation(FieldSetup& setup) const;
+  /// What differs by region.
+  struct Region {
+    PotentialPointer skeleton;
+    Mat<3, 3, double> permeability;  ///< K, m^2
+    PoreFlow flow;
+    double density;  ///< averaged, of the skeleton
+  };
+  void add_balances(FieldSetup& setup, const Region& region) const;
+  void add_stabilisation(FieldSetup& setup, const Region& region) const;
+  static void add_outputs(FieldSetup& setup, const Region& region);
   void add_loads(FieldSetup& setup) const;
   void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& name) const;
   void set_initial(FieldSetup& setup) const;
-  void add_outputs(FieldSetup& setup) const;
 
   Parameters parameters_;
-  PotentialPointer skeleton_;
-  Mat<3, 3, double> permeability_;  ///< K, m^2
-  PoreFlow flow_;
-  double density_;  ///< averaged, of the skeleton
+  std::vector<Region> regions_;  ///< one at least
+  double fluid_density_, viscosity_;
+  bool has_mass_;  ///< the skeleton
+  bool porosity_changes_;
   bool nodal_forces_;
   int order_;
 };

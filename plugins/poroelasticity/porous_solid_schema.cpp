@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "porous_solid.hpp"
+#include "seam/physics/regions.hpp"
 
 namespace seam::poro {
 namespace {
@@ -53,24 +54,28 @@ Schema PorousSolid::schema() {
       "Porous body of hyperelastic skeleton, filled with an incompressible fluid, at finite strain; plane "
       "strain in 2D.");
   s.reference("mesh", "Its reference shape", "mesh");
-  s.typed("material", "Strain energy of the skeleton", "hyperelastic");
-  s.number("density", "Mass of the skeleton per reference volume of the mixture; 0 leaves out its inertia")
-      .unit("kg/m^3")
-      .otherwise("0")
-      .at_least(0);
+  const auto of_region = [](Schema& r) {
+    r.typed("material", "Strain energy of the skeleton", "hyperelastic").optional();
+    r.number("density", "Mass of the skeleton per reference volume of the mixture; 0 leaves out its inertia")
+        .unit("kg/m^3")
+        .otherwise("0")
+        .at_least(0);
+    r.object("porosity", "Part of the volume that is fluid", porosity_schema()).optional();
+    r.vector("permeability",
+             "Material permeability K: one number, the diagonal, or all of the tensor row by row")
+        .unit("m^2")
+        .entries(-1)
+        .optional();
+    r.boolean("kozeny_carman",
+              "K changes with the fluid's volume, thesis (4.26); as given it belongs to the initial porosity")
+        .otherwise("false");
+  };
+  declare_regions(s, of_region);
   s.number("fluid_density", "Mass per volume of the fluid; 0 leaves out its inertia")
       .unit("kg/m^3")
       .otherwise("0")
       .at_least(0);
   s.number("viscosity", "Dynamic viscosity of the fluid").unit("Pa s").above(0);
-  s.object("porosity", "Part of the volume that is fluid", porosity_schema());
-  s.vector("permeability",
-           "Material permeability K: one number, the diagonal, or all of the tensor row by row")
-      .unit("m^2")
-      .entries(-1);
-  s.boolean("kozeny_carman",
-            "K changes with the fluid's volume, thesis (4.26); as given it belongs to the initial porosity")
-      .otherwise("false");
   s.integer("order", "1: all unknowns, stabilised; 2: of displacement and velocity, with pressure of order 1")
       .otherwise("1")
       .at_least(1)

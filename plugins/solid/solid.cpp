@@ -2,6 +2,7 @@
 #include "solid.hpp"
 
 #include "quantities.hpp"
+#include "seam/physics/regions.hpp"
 #include "seam/physics/stress_law.hpp"
 
 namespace seam::solid {
@@ -31,11 +32,13 @@ Schema boundary_schema() {
 Schema Solid::schema() {
   Schema s("Deformable body of hyperelastic material at finite strain; plane strain in 2D.");
   s.reference("mesh", "Its reference shape", "mesh");
-  s.typed("material", "Strain energy", "hyperelastic");
-  s.number("density", "Mass per reference volume; 0 leaves out inertia")
-      .unit("kg/m^3")
-      .otherwise("0")
-      .at_least(0);
+  declare_regions(s, [](Schema& r) {
+    r.typed("material", "Strain energy", "hyperelastic").optional();
+    r.number("density", "Mass per reference volume; 0 leaves out inertia")
+        .unit("kg/m^3")
+        .otherwise("0")
+        .at_least(0);
+  });
   s.choice("formulation",
            "`mixed` (with pressure and dilation) does not lock when nearly incompressible; needs order 2",
            {"displacement", "mixed"})
@@ -56,20 +59,25 @@ Schema Solid::schema() {
 
 Solid::Solid(const Parameters& p, const Registry& registry)
     : parameters_(p),
-      material_(registry.create<Potential>("hyperelastic", p.object("material"))),
-      density_(p.number("density")),
       mixed_(p.text("formulation") == "mixed"),
       nodal_force_(p.has("body_force") && p.boolean("interpolate_body_force")),
       order_(static_cast<int>(p.integer("order"))) {
-  if (material_->arguments() != 3)
-    throw Error(p.where("material"), "this material does not take the three invariants I1, I2, J");
+  for (const MaterialOfRegion& of : materials(p, {"material"})) {
+    regions_.push_back({registry.create<Potential>("hyperelastic", of("material").object("material")),
+                        of("density").number("density")});
+    if (regions_.back().material->arguments() != 3)
+      throw Error(of("material").where("material"),
+                  "this material does not take the three invariants I1, I2, J");
+  }
+  has_mass_ = holds_in_all(
+      p, regions_, [](const Region& r) { return r.density > 0; }, "a `density`");
   if (mixed_ && order_ != 2)
     throw Error(p.where("formulation"),
                 "`formulation: mixed` is stable only with `order: 2` (pressure and dilation of order 1)");
 }
 
 std::vector<Unknown> Solid::unknowns(int dimension) const {
-  std::vector<Unknown> result{{unknown_name, dimension, order_, density_ > 0 ? 2 : 0, "m"}};
+  std::vector<Unknown> result{{unknown_name, dimension, order_, has_mass_ ? 2 : 0, "m"}};
   if (mixed_) {
     result.push_back({"pressure", 1, 1, 0, "Pa"});
     result.push_back({"dilation", 1, 1, 0, ""});
@@ -79,7 +87,13 @@ std::vector<Unknown> Solid::unknowns(int dimension) const {
 }
 
 void Solid::build(FieldSetup& setup) const {
-  add_body_terms(setup);
+  divide(setup, parameters_);
+  for (std::size_t k = 0; k < regions_.size(); ++k)
+    setup.within(static_cast<int>(k), [&, &region = regions_[k]] {
+      add_body_terms(setup, region);
+      add_outputs(setup, region);
+    });
+  add_body_force(setup);
   for (const Parameters& condition : parameters_.list("boundary")) add_boundary(setup, condition);
   if (parameters_.has("initial")) {
     const Parameters& initial = parameters_.object("initial");
@@ -90,27 +104,31 @@ void Solid::build(FieldSetup& setup) const {
         setup.set_initial_rate(unknown_name, d, initial.vector_expression("velocity")[d]);
     }
   }
-  add_outputs(setup);
 }
 
-void Solid::add_body_terms(FieldSetup& setup) const {
+void Solid::add_body_terms(FieldSetup& setup, const Region& region) const {
   if (mixed_)
-    setup.add_cell_term(make_term(MixedInternalForce{material_}), mixed_unknowns);
+    setup.add_cell_term(make_term(MixedInternalForce{region.material}), mixed_unknowns);
   else
-    setup.add_cell_term(make_term(InternalForce{{material_}}), displacement_only);
-  if (!mixed_) setup.publish("stress", std::make_shared<LawStress<Piola>>(Piola{material_}));
-  if (density_ > 0) setup.add_cell_term(make_term(BodyInertia{density_}), displacement_only);
+    setup.add_cell_term(make_term(InternalForce{{region.material}}), displacement_only);
+  if (!mixed_) setup.publish("stress", std::make_shared<LawStress<Piola>>(Piola{region.material}));
+  if (region.density > 0) setup.add_cell_term(make_term(BodyInertia{region.density}), displacement_only);
+}
+
+void Solid::add_body_force(FieldSetup& setup) const {
   if (!parameters_.has("body_force")) return;
-  if (density_ == 0)
+  if (!has_mass_)
     throw Error(parameters_.where("body_force"),
                 "a body force per mass acts on a body without mass: give a `density`");
   const auto& force = parameters_.vector_expression("body_force");
-  if (!nodal_force_) {
-    setup.add_cell_term(make_term(BodyLoad{force, density_}, 1), displacement_only);
-    return;
-  }
-  for (int d = 0; d < setup.dimension(); ++d) setup.give("body_force", d, force[d]);
-  setup.add_cell_term(make_term(NodalBodyLoad{density_}, 1), {unknown_name, "body_force"});
+  for (int d = 0; nodal_force_ && d < setup.dimension(); ++d) setup.give("body_force", d, force[d]);
+  for (std::size_t k = 0; k < regions_.size(); ++k)
+    setup.within(static_cast<int>(k), [&, density = regions_[k].density] {
+      if (nodal_force_)
+        setup.add_cell_term(make_term(NodalBodyLoad{density}, 1), {unknown_name, "body_force"});
+      else
+        setup.add_cell_term(make_term(BodyLoad{force, density}, 1), displacement_only);
+    });
 }
 
 void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
@@ -131,20 +149,20 @@ void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
   }
 }
 
-void Solid::add_outputs(FieldSetup& setup) const {
+void Solid::add_outputs(FieldSetup& setup, const Region& region) const {
   if (mixed_) {
-    setup.add_output("cauchy_stress", make_quantity(MixedCauchyStress{material_}), mixed_unknowns);
-    setup.add_output("von_mises", make_quantity(MixedVonMises{{material_}}), mixed_unknowns);
+    setup.add_output("cauchy_stress", make_quantity(MixedCauchyStress{region.material}), mixed_unknowns);
+    setup.add_output("von_mises", make_quantity(MixedVonMises{{region.material}}), mixed_unknowns);
   } else {
-    setup.add_output("cauchy_stress", make_quantity(CauchyStress{material_}), displacement_only);
-    setup.add_output("von_mises", make_quantity(VonMises{material_}), displacement_only);
+    setup.add_output("cauchy_stress", make_quantity(CauchyStress{region.material}), displacement_only);
+    setup.add_output("von_mises", make_quantity(VonMises{region.material}), displacement_only);
   }
-  setup.add_integral("strain_energy", make_quantity(StrainEnergy{material_}), displacement_only);
+  setup.add_integral("strain_energy", make_quantity(StrainEnergy{region.material}), displacement_only);
   setup.add_integral("volume", make_quantity(CurrentVolume{}), displacement_only);
-  if (density_ == 0) return;
+  if (!has_mass_) return;
   setup.add_integral("volume_rate", make_quantity(VolumeRate{}), displacement_only);
   setup.add_output("velocity", make_quantity(Velocity{}), displacement_only);
-  setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{density_}), displacement_only);
+  setup.add_integral("kinetic_energy", make_quantity(KineticEnergy{region.density}), displacement_only);
 }
 
 }  // namespace seam::solid

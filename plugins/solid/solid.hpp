@@ -18,13 +18,19 @@ class Solid final : public Physics {
   [[nodiscard]] std::string displacement() const override { return "displacement"; }
 
  private:
-  void add_body_terms(FieldSetup& setup) const;
+  /// What differs by region.
+  struct Region {
+    PotentialPointer material;
+    double density;
+  };
+  void add_body_terms(FieldSetup& setup, const Region& region) const;
+  void add_body_force(FieldSetup& setup) const;
   void add_boundary(FieldSetup& setup, const Parameters& condition) const;
-  void add_outputs(FieldSetup& setup) const;
+  void add_outputs(FieldSetup& setup, const Region& region) const;
 
   Parameters parameters_;
-  PotentialPointer material_;
-  double density_;
+  std::vector<Region> regions_;  ///< one at least
+  bool has_mass_;
   bool mixed_;
   bool nodal_force_;  ///< the body force is interpolated from the nodes
   int order_;

@@ -79,6 +79,27 @@ TEST_CASE("a filter that bends in a flow stores in each step what seeps into it"
   }
 }
 
+TEST_CASE("a body whose outline has no names stores in each step what seeps into it, too") {
+  const Folder folder;
+  const std::string series =
+      series_of("bending_beam", folder,
+                "--set checks=[] --set output.statistics={} --set parameters.m=2 --set parameters.h=0.03 "
+                "--set parameters.step=0.1 --set parameters.end=2.8");
+  const auto of = [&](const std::string& name) { return column(series, name); };
+  const std::vector<double> time = of("time"), volume = of("beam.fluid_volume"), seepage = of("face.seepage"),
+                            missing = of("missing");
+  REQUIRE(time.size() == 29);
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    CHECK(std::abs(volume[k] - volume[k - 1] - (time[k] - time[k - 1]) * seepage[k]) < 1e-8);
+    CHECK(std::abs(missing[k]) < 1e-7);
+  }
+  // It bends with the flow, is stretched before and pressed behind, and fluid seeps through it.
+  CHECK(of("tip.x").back() > 0.3);
+  CHECK(of("phi_before").back() > 0.505);
+  CHECK(of("phi_behind").back() < 0.495);
+  CHECK(of("across").back() > 1e-4);
+}
+
 TEST_CASE("fluid slips along a porous bed after Beavers and Joseph, and after Saffmann") {
   const std::string saffmann = "--set coupling.0.slip_against=skeleton ";
   for (const std::string tangential : {"nitsche", "substitution"}) {

@@ -16,8 +16,9 @@ void BoundaryDomain::update(const Field& field) {
   whole_.clear();
   cut_.clear();
   CutRule rule;
-  for (const CellFace& face : field.mesh().boundary(boundary_)) {
-    if (face.cell >= field.mesh().owned_cells() || !field.active_cells()[face.cell]) continue;
+  const Mesh& mesh = field.mesh();
+  for (const CellFace& face : boundary_.empty() ? mesh.outer_faces() : mesh.boundary(boundary_)) {
+    if (face.cell >= mesh.owned_cells() || !field.active_cells()[face.cell]) continue;
     if (!field.is_cut(face.cell)) {
       whole_.push_back(face);
       continue;
@@ -65,6 +66,7 @@ const int* BoundaryDomain::nodes(int index, int, int block) const {
 }
 
 std::string BoundaryDomain::description() const {
+  if (boundary_.empty()) return fmt::format("surface of field '{}'", field_->name());
   return fmt::format("boundary '{}' of field '{}'", boundary_, field_->name());
 }
 

@@ -66,10 +66,11 @@ class FaceTables {
   std::vector<std::vector<ShapeTable>> partners_[2];  ///< [face][orientation]
 };
 
-/// Faces of a field's active cells that carry a name; this rank evaluates those of its owned cells. Of a cut
-/// cell's face only the wet part counts, each part of the cell for itself.
+/// Faces of a field's active cells that carry a name, or all outer ones; this rank evaluates those of its
+/// owned cells. Of a cut cell's face only the wet part counts, each part of the cell for itself.
 class BoundaryDomain final : public IntegrationDomain {
  public:
+  /// @param boundary its name, "" for the whole outer surface of the mesh
   BoundaryDomain(Field& field, const std::string& boundary, int degree);
 
   [[nodiscard]] int size() const override { return static_cast<int>(whole_.size() + cut_.size()); }

@@ -104,7 +104,7 @@ const std::vector<Operand>& IntegrationDomain::movers() const {
 
 // Overrides keep what they are given.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
-int IntegrationDomain::add_constant(int, std::shared_ptr<const CellConstant>) {
+int IntegrationDomain::add_constant(int, std::shared_ptr<const CellConstant>, int) {
   throw Error("a coupling needs constants of the body's cells, which " + description() +
               " do not keep; use an interface of type embedded or contact");
 }

@@ -101,8 +101,9 @@ class IntegrationDomain {
   [[nodiscard]] virtual const Field* whole_field() const { return nullptr; }
   /// Finds the elements anew after this field's active cells, or the bodies that cut them, have changed.
   virtual void update(const Field& field) { (void)field; }
-  /// Keeps a number per cell of a side for a term. @return index into Element::constants
-  virtual int add_constant(int side, std::shared_ptr<const CellConstant> constant);
+  /// Keeps a number per cell of a side, in one region of its field, for a term.
+  /// @return index into Element::constants
+  virtual int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region);
   /// Those that follow the deformation are computed anew: at the start of a step, or in each iteration.
   virtual void forget_constants(bool new_step) { (void)new_step; }
   /// For messages: "cells of field 'water'".

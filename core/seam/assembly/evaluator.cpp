@@ -31,9 +31,7 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   operators_.resize(parts_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
-    Compiled compiled{
-        bound.term,     &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_),
-        bound.constants};
+    Compiled compiled{bound, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
     if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
     if (bound.operands.size() < s.components.size())
       throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound",
@@ -107,6 +105,7 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
     compute_partner_motion();
   }
   for (const Compiled& term : terms_) {
+    if (!term.bound.holds(element_)) continue;
     compute_inputs(term);
     if (role_ == Role::sweep) {
       evaluate(term, at, false);
@@ -142,10 +141,13 @@ void ElementEvaluator::add_change_to_magnitude() {
 
 const std::vector<double>& ElementEvaluator::compute_values(int index, const TimePoint& at) {
   domain_->fill(index, element_);
+  point_residual_.clear();
+  const auto term = std::ranges::find_if(terms_, [&](const Compiled& t) { return t.bound.holds(element_); });
+  if (term == terms_.end()) return point_residual_;
   compute_operators();
   gather();
-  compute_inputs(terms_.front());
-  evaluate(terms_.front(), at, false);
+  compute_inputs(*term);
+  evaluate(*term, at, false);
   return point_residual_;
 }
 
@@ -260,8 +262,8 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   batch.cell_size = element_.cell_size.data();
   batch.trace_size = element_.trace_size.data();
   if (element_.sides.size() > 1) batch.partner_position = element_.sides[1].position.data();
-  for (std::size_t k = 0; k < term.constants.size(); ++k)
-    if (term.constants[k] >= 0) batch.constant[k] = element_.constants[term.constants[k]].data();
+  for (std::size_t k = 0; k < term.bound.constants.size(); ++k)
+    if (term.bound.constants[k] >= 0) batch.constant[k] = element_.constants[term.bound.constants[k]].data();
   if (!element_.gap.empty()) batch.gap = element_.gap.data();
   batch.inputs = inputs_.data();
   batch.time = at.time;
@@ -279,8 +281,8 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   const int columns = term.columns + batch.moves;
   point_residual_.resize(static_cast<std::size_t>(element_.points) * term.outputs);
   point_tangent_.resize(point_residual_.size() * columns);
-  term.term->evaluate(batch, point_residual_.data(),
-                      with_tangent && columns > 0 ? point_tangent_.data() : nullptr);
+  term.bound.term->evaluate(batch, point_residual_.data(),
+                            with_tangent && columns > 0 ? point_tangent_.data() : nullptr);
 }
 
 void ElementEvaluator::add_residual(const Compiled& term) {

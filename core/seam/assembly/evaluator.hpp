@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -33,6 +34,18 @@ struct BoundTerm {
   std::shared_ptr<const Term> term;
   std::vector<Operand> operands;
   std::array<int, 2> constants{-1, -1};  ///< indices into Element::constants, -1 when the term reads none
+  /// Where sides' physics tell regions apart (Field::region): those in which the term holds, one a side.
+  struct Region {
+    int side, region;
+  };
+  std::vector<Region> regions = {};
+  /// Whether the term holds on an element.
+  [[nodiscard]] bool holds(const Element& element) const {
+    return std::ranges::all_of(regions, [&](const Region& r) {
+      const ElementSide& side = element.sides[r.side];
+      return side.field->region(side.global_cell) == r.region;
+    });
+  }
 };
 
 /// How values at the points of a domain become one number.
@@ -71,8 +84,8 @@ class ElementEvaluator {
 
   /// Evaluates element `index` at the present states.
   void compute(int index, const TimePoint& at, bool with_tangent);
-  /// Evaluates the quantity given as the only term at the points of element `index`.
-  /// @return [point][Signature::values]
+  /// Evaluates a quantity at the points of element `index`: the first of the terms that holds there.
+  /// @return [point][Signature::values]; empty where none does
   const std::vector<double>& compute_values(int index, const TimePoint& at);
   [[nodiscard]] const Element& element() const { return element_; }
   /// [row]
@@ -91,11 +104,10 @@ class ElementEvaluator {
     int components;
   };
   struct Compiled {
-    std::shared_ptr<const Term> term;
+    BoundTerm bound;
     const Signature* signature;
     std::vector<BoundOperand> operands;
     int inputs, outputs, columns;
-    std::array<int, 2> constants;
   };
   /// Shape operators of a part at the element's points.
   struct Operators {

@@ -143,8 +143,8 @@ const int* ContactDomain::nodes(int index, int side, int block) const {
                    : other_->cell(piece.opposite_group).nodes[block].data();
 }
 
-int ContactDomain::add_constant(int side, std::shared_ptr<const CellConstant> constant) {
-  constants_.push_back({side, of_side_.at(side).add(std::move(constant))});
+int ContactDomain::add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) {
+  constants_.push_back({side, of_side_.at(side).add(std::move(constant), region)});
   return static_cast<int>(constants_.size()) - 1;
 }
 

@@ -27,7 +27,7 @@ class ContactDomain final : public IntegrationDomain {
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
   bool follow(double time) override;
-  int add_constant(int side, std::shared_ptr<const CellConstant> constant) override;
+  int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override;
   void forget_constants(bool new_step) override;
   [[nodiscard]] std::string description() const override;
 

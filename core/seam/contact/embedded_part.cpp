@@ -81,10 +81,10 @@ const int* EmbeddedPart::nodes(int index, int side, int block) const {
   }
 }
 
-int EmbeddedPart::add_constant(int side, std::shared_ptr<const CellConstant> constant) {
+int EmbeddedPart::add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) {
   if (side != 1 && side != 2)
     throw std::logic_error("an embedded surface keeps constants of the bodies' cells only");
-  constants_.push_back({side, (side == 1 ? of_own_ : of_other_).add(std::move(constant))});
+  constants_.push_back({side, (side == 1 ? of_own_ : of_other_).add(std::move(constant), region)});
   return static_cast<int>(constants_.size()) - 1;
 }
 

@@ -112,7 +112,7 @@ class EmbeddedPart final : public IntegrationDomain {
   [[nodiscard]] int swept_side() const override { return part_ == EmbeddedSurface::closed ? -1 : 0; }
   /// The first part finds the points of all.
   bool follow(double time) override;
-  int add_constant(int side, std::shared_ptr<const CellConstant> constant) override;
+  int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override;
   void forget_constants(bool new_step) override;
   [[nodiscard]] std::string description() const override;
 

@@ -22,9 +22,9 @@ class EmbeddedBoundary final : public CutBoundary {
         constants_(surface_->body(), surface_->place()) {}
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
   [[nodiscard]] int swept_side() const override { return 0; }
-  int add_constant(int side, std::shared_ptr<const CellConstant> constant) override {
+  int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override {
     if (side != 1) throw std::logic_error("an embedded interface keeps constants of its body's cells only");
-    return constants_.add(std::move(constant));
+    return constants_.add(std::move(constant), region);
   }
   void forget_constants(bool new_step) override {
     constants_.forget(new_step ? CellConstant::Refresh::step : CellConstant::Refresh::iteration);

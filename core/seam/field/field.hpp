@@ -91,12 +91,26 @@ class Field {
   /// @throws Error listing those it has
   [[nodiscard]] double constant(const std::string& name) const;
   void set_constant(const std::string& name, double value) { constants_[name] = value; }
-  /// A law that the field's physics makes known, such as "stress"; null when it does not.
-  [[nodiscard]] std::shared_ptr<const Law> law(const std::string& name) const {
-    const auto found = laws_.find(name);
+  /// A law that the field's physics makes known, such as "stress", as it holds in one of the regions that it
+  /// tells apart; null when it does not.
+  [[nodiscard]] std::shared_ptr<const Law> law(const std::string& name, int region) const {
+    const auto found = laws_.find({name, region});
     return found == laws_.end() ? nullptr : found->second;
   }
-  void set_law(const std::string& name, std::shared_ptr<const Law> law) { laws_[name] = std::move(law); }
+  void set_law(const std::string& name, int region, std::shared_ptr<const Law> law) {
+    laws_[{name, region}] = std::move(law);
+  }
+  /// Number of regions that the field's physics tells apart (FieldSetup::divide): 1 unless it does.
+  [[nodiscard]] int regions() const { return regions_; }
+  /// The region in which a cell of the whole mesh lies.
+  [[nodiscard]] int region(int global_cell) const {
+    return region_of_cell_.empty() ? 0 : region_of_cell_[global_cell];
+  }
+  /// @param region_of_cell of each cell of the whole mesh
+  void divide(int regions, std::vector<int> region_of_cell) {
+    regions_ = regions;
+    region_of_cell_ = std::move(region_of_cell);
+  }
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
@@ -146,7 +160,9 @@ class Field {
   std::vector<Unknown> unknowns_;
   std::vector<Place> places_;
   std::map<std::string, double> constants_;
-  std::map<std::string, std::shared_ptr<const Law>> laws_;
+  std::map<std::pair<std::string, int>, std::shared_ptr<const Law>> laws_;  ///< by name and region
+  int regions_ = 1;
+  std::vector<int> region_of_cell_;
   std::vector<Block> blocks_;
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;

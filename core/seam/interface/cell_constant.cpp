@@ -62,8 +62,8 @@ void deform(const Element& element, CellPoints& points) {
 
 }  // namespace
 
-int CellConstants::add(std::shared_ptr<const CellConstant> constant) {
-  constants_.push_back({std::move(constant), {}, {}});
+int CellConstants::add(std::shared_ptr<const CellConstant> constant, int region) {
+  constants_.push_back({std::move(constant), region, {}, {}});
   return count() - 1;
 }
 
@@ -74,6 +74,7 @@ void CellConstants::forget(CellConstant::Refresh policy) {
 
 double CellConstants::value(int number, int index, const RemoteCell& cell, const std::vector<int>& faces) {
   Entry& entry = constants_[number];
+  if (body_->region(cell.global_cell) != entry.region) return 0;
   const auto i = static_cast<std::size_t>(index);
   if (i >= entry.known.size()) {
     entry.known.resize(i + 1, 0);

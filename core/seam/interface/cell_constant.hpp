@@ -47,8 +47,9 @@ class CellConstants {
  public:
   /// @param displacement of the body
   CellConstants(const Field& body, Field::Place displacement) : body_(&body), place_(displacement) {}
+  /// @param region the one in whose cells it is read; elsewhere it is 0
   /// @return its number
-  int add(std::shared_ptr<const CellConstant> constant);
+  int add(std::shared_ptr<const CellConstant> constant, int region);
   [[nodiscard]] int count() const { return static_cast<int>(constants_.size()); }
   /// Those of this policy are computed anew.
   void forget(CellConstant::Refresh policy);
@@ -62,6 +63,7 @@ class CellConstants {
                                 CellConstant::Refresh policy) const;
   struct Entry {
     std::shared_ptr<const CellConstant> constant;
+    int region;
     std::vector<double> value;  ///< [cell]
     std::vector<char> known;
   };

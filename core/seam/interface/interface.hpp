@@ -62,6 +62,13 @@ class Interface {
 /// classes.
 struct CouplingSides {
   std::vector<const Field*> fields;
+  /// The region of each side's field that is meant (Field::region). Where physics tell regions apart, a
+  /// coupling is asked for its terms and measures for each combination of them.
+  std::vector<int> regions;
+  /// A law of a side's field there (Field::law); null when it has none of this name.
+  [[nodiscard]] std::shared_ptr<const Law> law(int side, const std::string& name) const {
+    return fields.at(side)->law(name, regions.at(side));
+  }
 };
 
 /// What happens where fields meet. A type of kind "coupling"; its schema must have the key `on`.

@@ -99,7 +99,16 @@ const std::vector<CellFace>& Mesh::boundary(const std::string& boundary_name) co
 }
 
 const std::vector<Mesh::InteriorFace>& Mesh::interior_faces() const {
-  if (interior_faces_built_) return interior_faces_;
+  if (!faces_found_) find_faces();
+  return interior_faces_;
+}
+
+const std::vector<CellFace>& Mesh::outer_faces() const {
+  if (!faces_found_) find_faces();
+  return outer_faces_;
+}
+
+void Mesh::find_faces() const {
   const CellTopology& cell = topology(type());
   struct Key {
     std::array<int, 4> vertices;
@@ -119,15 +128,22 @@ const std::vector<Mesh::InteriorFace>& Mesh::interior_faces() const {
     return std::pair(a.vertices, global_cell_[a.face.cell]) <
            std::pair(b.vertices, global_cell_[b.face.cell]);
   });
-  for (std::size_t k = 0; k + 1 < keys.size(); ++k)
-    if (keys[k].vertices == keys[k + 1].vertices && keys[k].face.cell < owned_cells_)
-      interior_faces_.push_back({{keys[k].face, keys[k + 1].face}});
+  // Two keys in a row are the two sides of a face.
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const bool owned = keys[k].face.cell < owned_cells_;
+    if (k + 1 < keys.size() && keys[k].vertices == keys[k + 1].vertices) {
+      if (owned) interior_faces_.push_back({{keys[k].face, keys[k + 1].face}});
+      ++k;
+    } else if (owned) {
+      outer_faces_.push_back(keys[k].face);
+    }
+  }
+  std::ranges::sort(outer_faces_, {}, [](const CellFace& f) { return std::pair(f.cell, f.face); });
   std::sort(interior_faces_.begin(), interior_faces_.end(),
             [&](const InteriorFace& a, const InteriorFace& b) {
               return std::pair(a.side[0].cell, a.side[0].face) < std::pair(b.side[0].cell, b.side[0].face);
             });
-  interior_faces_built_ = true;
-  return interior_faces_;
+  faces_found_ = true;
 }
 
 }  // namespace seam

@@ -53,6 +53,8 @@ class Mesh {
     CellFace side[2];
   };
   [[nodiscard]] const std::vector<InteriorFace>& interior_faces() const;
+  /// Faces of owned cells with nothing behind them, named or not. Built at the first call.
+  [[nodiscard]] const std::vector<CellFace>& outer_faces() const;
 
   /// The undistributed mesh, kept until every space is built on this one.
   [[nodiscard]] const MeshData& whole() const { return *whole_; }
@@ -75,8 +77,10 @@ class Mesh {
   std::vector<double> diameter_;
   std::vector<double> volume_;
   std::map<std::string, std::vector<CellFace>> boundaries_;
+  void find_faces() const;
   mutable std::vector<InteriorFace> interior_faces_;
-  mutable bool interior_faces_built_ = false;
+  mutable std::vector<CellFace> outer_faces_;
+  mutable bool faces_found_ = false;
 };
 
 }  // namespace seam

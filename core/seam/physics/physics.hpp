@@ -41,12 +41,23 @@ class FieldSetup {
   /// Makes a law of the physics known to couplings (Field::law), under one of the names that Law lists.
   virtual void publish(const std::string& name, std::shared_ptr<const Law> law) = 0;
 
+  /// Tells regions of the mesh apart, in which the body is of different material. Before anything else is
+  /// said.
+  /// @param names of regions of the mesh that make up each of them, with where the scene names them
+  /// @throws Error when a cell lies in none of them, or in two
+  virtual void divide(const std::vector<std::pair<std::vector<std::string>, Location>>& names) = 0;
+  /// What `add` adds, terms, laws, outputs and integrals, holds in one of these regions only, terms on
+  /// interior faces where both cells lie in it. Of a field that is not divided region 0 is the whole.
+  virtual void within(int region, const std::function<void()>& add) = 0;
+
   /// Adds a term over all cells. @param operands the unknowns the kernel's operands 0, 1, ... stand for
   virtual void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
   /// The same, only over cells that no body cuts: for residual-based stabilisation.
   virtual void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
   virtual void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                  std::vector<std::string> operands) = 0;
+  /// The same over the whole outer surface of the mesh, whether or not its parts have names.
+  virtual void add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
   /// Adds a term over the faces between two cells; its operands name a side (0 or 1) each.
   virtual void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) = 0;
   /// The same over the faces of cut cells only, for ghost penalties.

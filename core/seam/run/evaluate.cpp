@@ -15,12 +15,6 @@
 namespace seam {
 namespace {
 
-BoundTerm bind(const NamedQuantity& quantity) {
-  BoundTerm bound{quantity.term, {}};
-  for (const std::string& name : quantity.operands) bound.operands.push_back({0, name});
-  return bound;
-}
-
 /// Chosen points in chosen cells.
 class SampleDomain final : public IntegrationDomain {
  public:
@@ -62,7 +56,7 @@ class SampleDomain final : public IntegrationDomain {
 
 std::vector<double> integrate(const IntegrationDomain& domain, const NamedQuantity& quantity,
                               const TimePoint& at, const Communicator& communicator) {
-  ElementEvaluator evaluator(domain, {bind(quantity)});
+  ElementEvaluator evaluator(domain, quantity.terms);
   std::vector<double> sum(quantity.components, 0.0);
   for (int e = 0; e < domain.size(); ++e) {
     const auto& values = evaluator.compute_values(e, at);
@@ -88,13 +82,12 @@ NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
   std::vector<std::string> known;
   for (const Unknown& unknown : entry.field->unknowns()) {
     if (unknown.name == name)
-      return {std::make_shared<UnknownQuantity>(unknown.components, Shape::value, dim),
-              {name},
+      return {{{std::make_shared<UnknownQuantity>(unknown.components, Shape::value, dim), {{0, name}}}},
               unknown.components};
     known.push_back(unknown.name);
   }
   for (const FieldQuantity& output : entry.outputs) {
-    if (output.name == name) return {output.term, output.operands, output.term->signature(dim).values};
+    if (output.name == name) return {output.terms, output.terms.front().term->signature(dim).values};
     known.push_back(output.name);
   }
   const std::string nearest = nearest_name(name, known);
@@ -118,7 +111,7 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
           std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(per_cell) * cell.dimension,
                                    static_cast<std::ptrdiff_t>(cell.node_coordinates.size())));
   const SampleDomain domain(entry, cells, reference);
-  ElementEvaluator evaluator(domain, {bind(quantity)});
+  ElementEvaluator evaluator(domain, quantity.terms);
   std::vector<double> sum(static_cast<std::size_t>(space.nodes()) * components, 0.0);
   std::vector<int> count(space.nodes(), 0);
   for (int e = 0; e < domain.size(); ++e) {
@@ -175,7 +168,7 @@ double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
     const auto components = static_cast<std::size_t>(quantity.term->signature(dim).values);
     for (int e = 0; e < domain->size(); ++e) {
       const auto& values = evaluator.compute_values(e, at);
-      for (std::size_t i = 0; i < evaluator.element().points * components; ++i) {
+      for (std::size_t i = 0; i < values.size(); ++i) {
         const double weight = evaluator.element().weight[i / components];
         sum += weight * values[i];
         square += weight * values[i] * values[i];
@@ -273,7 +266,7 @@ std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQua
     const Field& field = *entry.field;
     const int part = field.parts(cell_) > 1 ? field.cut()->part_at(cell_, position_) : 0;
     const SampleDomain domain(entry, {{cell_, part}}, reference_);
-    ElementEvaluator evaluator(domain, {bind(quantity)});
+    ElementEvaluator evaluator(domain, quantity.terms);
     const auto& values = evaluator.compute_values(0, at);
     std::copy_n(values.begin(), result.size(), result.begin());
   }

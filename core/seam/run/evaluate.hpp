@@ -13,8 +13,7 @@ namespace seam {
 
 /// A quantity of a field by its name: an unknown, or an output that the physics declares.
 struct NamedQuantity {
-  std::shared_ptr<const Term> term;
-  std::vector<std::string> operands;
+  std::vector<BoundTerm> terms;  ///< see FieldQuantity
   int components = 1;
 };
 /// @throws Error listing the quantities the field has

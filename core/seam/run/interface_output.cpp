@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "seam/output/atomic_file.hpp"
@@ -63,9 +64,9 @@ std::vector<double> InterfaceOutput::rows(const Interface& interface, const Time
               result.resize(row + width, std::numeric_limits<double>::quiet_NaN());
               put_place(element, q, dim, &result[row]);
             }
-            for (std::size_t c = 0; c < components; ++c) {
+            for (std::size_t c = 0; c < components && !values.empty(); ++c) {
               double& sum = result[row + at_column + c];
-              sum = (k == 0 ? 0 : sum) + values[q * components + c];
+              sum = (std::isnan(sum) ? 0 : sum) + values[q * components + c];
             }
           }
         }

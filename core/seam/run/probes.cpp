@@ -88,8 +88,8 @@ void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
   for (const FieldEntry& entry : problem.fields()) {
     if (entry.cut) results.series[entry.name + ".dropped_volume"].push_back(entry.cut->dropped_volume());
     for (const FieldQuantity& integral : entry.integrals) {
-      const int components = integral.term->signature(entry.mesh->dimension()).values;
-      const auto values = cell_integral(entry, {integral.term, integral.operands, components}, at);
+      const int components = integral.terms.front().term->signature(entry.mesh->dimension()).values;
+      const auto values = cell_integral(entry, {integral.terms, components}, at);
       results.series[entry.name + "." + integral.name].push_back(values.at(0));
     }
   }

@@ -116,6 +116,40 @@ class Simulation::Setup final : public InterfaceSetup {
   std::vector<FieldEntry*> entries_;
 };
 
+namespace {
+
+bool speaks_of(const Coupling::SideTerm& term, int side) {
+  return std::ranges::any_of(term.operands, [&](const Operand& operand) { return operand.side == side; });
+}
+
+/// The regions that a term of a coupling holds in, on the sides that it speaks of.
+std::vector<BoundTerm::Region> regions_of(const Coupling::SideTerm& term, const CouplingSides& sides) {
+  std::vector<BoundTerm::Region> result;
+  for (int side = 0; side < static_cast<int>(sides.fields.size()); ++side)
+    if (sides.fields[side]->regions() > 1 && speaks_of(term, side))
+      result.push_back({side, sides.regions[side]});
+  return result;
+}
+
+/// Of the terms that a coupling gives for each combination of regions, those that do not speak of a side
+/// count once for all regions there.
+bool concerns(const Coupling::SideTerm& term, const CouplingSides& sides) {
+  for (int side = 0; side < static_cast<int>(sides.fields.size()); ++side)
+    if (sides.regions[side] > 0 && !speaks_of(term, side)) return false;
+  return true;
+}
+
+/// The next combination of regions of the sides. @return false after the last one
+bool next_regions(CouplingSides& sides) {
+  for (std::size_t side = 0; side < sides.fields.size(); ++side) {
+    if (++sides.regions[side] < sides.fields[side]->regions()) return true;
+    sides.regions[side] = 0;
+  }
+  return false;
+}
+
+}  // namespace
+
 void Simulation::build_couplings(const Registry& registry) {
   struct Built {
     std::vector<InterfacePart> parts;
@@ -146,22 +180,31 @@ void Simulation::build_couplings(const Registry& registry) {
   for (const auto& [parameters, coupling] : couplings) {
     const Built& built = interfaces.at(parameters.text("on"));
     try {
-      const CouplingSides sides{{built.sides.begin(), built.sides.end()}};
+      CouplingSides sides{{built.sides.begin(), built.sides.end()}, std::vector<int>(built.sides.size(), 0)};
       const auto bind = [&](const Coupling::SideTerm& term) {
-        BoundTerm bound{term.term, term.operands};
-        for (std::size_t k = 0; k < term.constants.size(); ++k)
-          bound.constants.at(k) =
-              built.part(term.part)->add_constant(term.constants[k].side, term.constants[k].constant);
+        BoundTerm bound{term.term, term.operands, {-1, -1}, regions_of(term, sides)};
+        for (std::size_t k = 0; k < term.constants.size(); ++k) {
+          const auto& [side, constant] = term.constants[k];
+          bound.constants.at(k) = built.part(term.part)->add_constant(side, constant, sides.regions.at(side));
+        }
         return bound;
       };
       std::map<std::string, std::vector<BoundTerm>> terms;  // by part
-      for (const auto& term : coupling->terms(sides)) terms[term.part].push_back(bind(term));
-      for (const auto& measure : coupling->measures(sides)) {
-        InterfaceMeasure recorded{parameters.text("on"), measure.name, {}, measure.of};
-        for (const auto& quantity : measure.quantities)
-          recorded.shares.push_back({built.part(quantity.part), bind(quantity)});
-        problem_.add_measure(std::move(recorded));
-      }
+      std::vector<InterfaceMeasure> measures;
+      do {
+        for (const auto& term : coupling->terms(sides))
+          if (concerns(term, sides)) terms[term.part].push_back(bind(term));
+        std::size_t number = 0;
+        for (const auto& measure : coupling->measures(sides)) {
+          if (number == measures.size())
+            measures.push_back({parameters.text("on"), measure.name, {}, measure.of});
+          for (const auto& quantity : measure.quantities)
+            if (concerns(quantity, sides))
+              measures[number].shares.push_back({built.part(quantity.part), bind(quantity)});
+          ++number;
+        }
+      } while (next_regions(sides));
+      for (InterfaceMeasure& measure : measures) problem_.add_measure(std::move(measure));
       for (auto& [part, of_part] : terms) problem_.add_coupling(built.part(part), std::move(of_part));
     } catch (const Error& error) {
       throw Error(parameters.where(), error.what());

@@ -97,25 +97,82 @@ void FieldBuilder::publish(const std::string& constant, double value) {
   entry_.field->set_constant(constant, value);
 }
 
+void FieldBuilder::publish(const std::string& name, std::shared_ptr<const Law> law) {
+  for (int region = 0; region < entry_.field->regions(); ++region)
+    if (region_ < 0 || region == region_) entry_.field->set_law(name, region, law);
+}
+
+void FieldBuilder::divide(const std::vector<std::pair<std::vector<std::string>, Location>>& names) {
+  const MeshData& whole = entry_.shape->whole();
+  std::vector<int> region_of_cell(whole.cell_count(), -1);
+  for (std::size_t region = 0; region < names.size(); ++region)
+    for (const std::string& name : names[region].first)
+      for (const int cell : whole.regions.at(name)) {
+        int& of_cell = region_of_cell[cell];
+        if (of_cell >= 0 && of_cell != static_cast<int>(region))
+          throw Error(names[region].second,
+                      fmt::format("cell {} of mesh '{}' lies in two regions of field '{}'; the other one "
+                                  "stands at {}",
+                                  cell, entry_.shape->name(), entry_.name, names[of_cell].second.text()));
+        of_cell = static_cast<int>(region);
+      }
+  const auto missing = std::ranges::count(region_of_cell, -1);
+  if (missing > 0)
+    throw Error(
+        names.front().second,
+        fmt::format("{} of {} cells of mesh '{}' lie in none of the regions of field '{}', the first of "
+                    "them is cell {}; add a region that holds them, if need be under `regions` of the "
+                    "mesh",
+                    missing, region_of_cell.size(), entry_.shape->name(), entry_.name,
+                    std::ranges::find(region_of_cell, -1) - region_of_cell.begin()));
+  entry_.field->divide(static_cast<int>(names.size()), std::move(region_of_cell));
+}
+
+void FieldBuilder::within(int region, const std::function<void()>& add) {
+  region_ = region;
+  add();
+  region_ = -1;
+}
+
+BoundTerm FieldBuilder::bind(std::shared_ptr<const Term> term, std::vector<Operand> operands,
+                             int sides) const {
+  BoundTerm bound{std::move(term), std::move(operands)};
+  if (region_ >= 0 && entry_.field->regions() > 1)
+    for (int side = 0; side < sides; ++side) bound.regions.push_back({side, region_});
+  return bound;
+}
+
+void FieldBuilder::add_quantity(std::vector<FieldQuantity>& list, const std::string& name,
+                                std::shared_ptr<const Term> quantity,
+                                std::vector<std::string> operands) const {
+  const bool continued = region_ > 0 && !list.empty();
+  const auto known = continued ? std::ranges::find(list, name, &FieldQuantity::name) : list.end();
+  if (known != list.end())
+    known->terms.push_back(bind(std::move(quantity), on_side_zero(operands)));
+  else
+    list.push_back({name, {bind(std::move(quantity), on_side_zero(operands))}});
+}
+
 void FieldBuilder::add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) {
   const int degree = cell_degree(*entry_.field, *term);
-  cell_terms_[{CellDomain::Cells::all, degree}].push_back({std::move(term), on_side_zero(operands)});
+  cell_terms_[{CellDomain::Cells::all, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) {
   const int degree = cell_degree(*entry_.field, *term);
-  cell_terms_[{CellDomain::Cells::uncut, degree}].push_back({std::move(term), on_side_zero(operands)});
+  cell_terms_[{CellDomain::Cells::uncut, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                      std::vector<std::string> operands) {
   const int degree = 2 * highest_order() + term->extra_degree();
-  boundary_terms_[{boundary, degree}].push_back({std::move(term), on_side_zero(operands)});
+  boundary_terms_[{boundary, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) {
   const int degree = 2 * highest_order() + term->extra_degree();
-  face_terms_[{InteriorFaceDomain::Faces::all, degree}].push_back({std::move(term), std::move(operands)});
+  face_terms_[{InteriorFaceDomain::Faces::all, degree}].push_back(
+      bind(std::move(term), std::move(operands), 2));
 }
 
 void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
@@ -123,7 +180,7 @@ void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const T
   const int degree = 2 * highest_order() + term->extra_degree();
   const auto which =
       faces == GhostFaces::all ? InteriorFaceDomain::Faces::ghost : InteriorFaceDomain::Faces::wet_ghost;
-  face_terms_[{which, degree}].push_back({std::move(term), std::move(operands)});
+  face_terms_[{which, degree}].push_back(bind(std::move(term), std::move(operands), 2));
 }
 
 void FieldBuilder::fix_level(const std::string& unknown, double value,
@@ -165,12 +222,12 @@ void FieldBuilder::set_initial_rate(const std::string& unknown, int component, E
 
 void FieldBuilder::add_output(const std::string& name, std::shared_ptr<const Term> quantity,
                               std::vector<std::string> operands) {
-  entry_.outputs.push_back({name, std::move(quantity), std::move(operands)});
+  add_quantity(entry_.outputs, name, std::move(quantity), std::move(operands));
 }
 
 void FieldBuilder::add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
                                 std::vector<std::string> operands) {
-  entry_.integrals.push_back({name, std::move(quantity), std::move(operands)});
+  add_quantity(entry_.integrals, name, std::move(quantity), std::move(operands));
 }
 
 Moments FieldBuilder::moments() const {

@@ -21,13 +21,16 @@ class FieldBuilder final : public FieldSetup {
   [[nodiscard]] std::vector<std::string> boundaries() const override;
   [[nodiscard]] int boundary_axis(const std::string& boundary) const override;
   void publish(const std::string& constant, double value) override;
-  void publish(const std::string& name, std::shared_ptr<const Law> law) override {
-    entry_.field->set_law(name, std::move(law));
-  }
+  void publish(const std::string& name, std::shared_ptr<const Law> law) override;
+  void divide(const std::vector<std::pair<std::vector<std::string>, Location>>& names) override;
+  void within(int region, const std::function<void()>& add) override;
   void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                          std::vector<std::string> operands) override;
+  void add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override {
+    add_boundary_term("", std::move(term), std::move(operands));
+  }
   void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) override;
   void add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
                            std::vector<Operand> operands) override;
@@ -45,7 +48,13 @@ class FieldBuilder final : public FieldSetup {
 
  private:
   [[nodiscard]] int highest_order() const;
+  /// With the region in which it holds on these sides.
+  [[nodiscard]] BoundTerm bind(std::shared_ptr<const Term> term, std::vector<Operand> operands,
+                               int sides = 1) const;
+  void add_quantity(std::vector<FieldQuantity>& list, const std::string& name,
+                    std::shared_ptr<const Term> quantity, std::vector<std::string> operands) const;
   FieldEntry& entry_;
+  int region_ = -1;  ///< that what is added holds in, -1 for all
   std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains_;
   /// By where they live and the degree of the quadrature.
   std::map<std::pair<CellDomain::Cells, int>, std::vector<BoundTerm>> cell_terms_;

@@ -19,8 +19,7 @@ namespace seam {
 /// A quantity of a field, for pictures, probes or time series.
 struct FieldQuantity {
   std::string name;
-  std::shared_ptr<const Term> term;
-  std::vector<std::string> operands;
+  std::vector<BoundTerm> terms;  ///< one, or one for each region that the field's physics tells apart
 };
 
 /// A prescribed component of an unknown on a boundary.

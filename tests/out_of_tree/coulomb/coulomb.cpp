@@ -58,13 +58,14 @@ class CoulombCoupling final : public Coupling {
     return s;
   }
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    for (const Field* field : sides.fields) {
-      static_cast<void>(field->place("displacement"));
-      if (!field->law("stress"))
-        throw Error("friction needs bodies that make their stress known; '" + field->name() + "' does not");
+    for (const int side : {0, 1}) {
+      const Field& field = *sides.fields.at(side);
+      static_cast<void>(field.place("displacement"));
+      if (!sides.law(side, "stress"))
+        throw Error("friction needs bodies that make their stress known; '" + field.name() + "' does not");
     }
-    const Coulomb kernel{sides.fields.at(0)->law("stress"), sides.fields.at(1)->law("stress"),
-                         parameters_.number("friction"), parameters_.number("creep")};
+    const Coulomb kernel{sides.law(0, "stress"), sides.law(1, "stress"), parameters_.number("friction"),
+                         parameters_.number("creep")};
     return {{make_term(kernel), {{0, "displacement"}, {1, "displacement"}}}};
   }
 
