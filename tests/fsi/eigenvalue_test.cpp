@@ -38,7 +38,7 @@ struct Body {
     const auto stress =
         std::make_shared<LawStress<solid::Piola>>(solid::Piola{test::material(law, young, poisson)});
     CellConstants constants(*field, field->place("displacement"));
-    constants.add(std::make_shared<fsci::TraceEigenvalue>(stress, refresh));
+    constants.add(std::make_shared<fsci::TraceEigenvalue>(stress, refresh), 0);
     const int cell = corner ? 0 : 1;
     std::vector<int> faces;
     for (const auto& [name, on] : mesh->boundaries())

@@ -144,7 +144,7 @@ BoundTerm FieldBuilder::bind(std::shared_ptr<const Term> term, std::vector<Opera
 
 void FieldBuilder::add_quantity(std::vector<FieldQuantity>& list, const std::string& name,
                                 std::shared_ptr<const Term> quantity,
-                                std::vector<std::string> operands) const {
+                                const std::vector<std::string>& operands) const {
   const bool continued = region_ > 0 && !list.empty();
   const auto known = continued ? std::ranges::find(list, name, &FieldQuantity::name) : list.end();
   if (known != list.end())
@@ -222,12 +222,12 @@ void FieldBuilder::set_initial_rate(const std::string& unknown, int component, E
 
 void FieldBuilder::add_output(const std::string& name, std::shared_ptr<const Term> quantity,
                               std::vector<std::string> operands) {
-  add_quantity(entry_.outputs, name, std::move(quantity), std::move(operands));
+  add_quantity(entry_.outputs, name, std::move(quantity), operands);
 }
 
 void FieldBuilder::add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
                                 std::vector<std::string> operands) {
-  add_quantity(entry_.integrals, name, std::move(quantity), std::move(operands));
+  add_quantity(entry_.integrals, name, std::move(quantity), operands);
 }
 
 Moments FieldBuilder::moments() const {

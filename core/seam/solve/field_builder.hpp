@@ -52,7 +52,7 @@ class FieldBuilder final : public FieldSetup {
   [[nodiscard]] BoundTerm bind(std::shared_ptr<const Term> term, std::vector<Operand> operands,
                                int sides = 1) const;
   void add_quantity(std::vector<FieldQuantity>& list, const std::string& name,
-                    std::shared_ptr<const Term> quantity, std::vector<std::string> operands) const;
+                    std::shared_ptr<const Term> quantity, const std::vector<std::string>& operands) const;
   FieldEntry& entry_;
   int region_ = -1;  ///< that what is added holds in, -1 for all
   std::vector<std::pair<std::shared_ptr<IntegrationDomain>, std::vector<BoundTerm>>>& domains_;
