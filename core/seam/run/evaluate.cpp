@@ -223,7 +223,13 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
   }
   const int dim = mesh.dimension();
   std::copy_n(position.begin(), dim, position_.begin());
-  // How far outside the reference cell the point lies, for the best owned cell.
+  constexpr double tolerance = 1e-6;
+  struct Candidate {
+    int cell;
+    double outside;  ///< how far outside the reference cell the point lies
+    std::vector<double> reference;
+  };
+  std::vector<Candidate> candidates;
   double best = std::numeric_limits<double>::max();
   for (int c = 0; c < mesh.owned_cells(); ++c) {
     ElementSide side;
@@ -244,19 +250,23 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
       sum += reference[d];
     }
     if (simplex) outside = std::max(outside, sum - 1);
-    if (outside < best) {
-      best = outside;
-      cell_ = c;
-      reference_ = reference;
-    }
+    best = std::min(best, outside);
+    if (outside <= tolerance) candidates.push_back({c, outside, reference});
   }
-  // A point on a border between ranks belongs to the lowest rank that has it.
   const double overall = communicator.min(best);
-  if (overall > 1e-6)
+  if (overall > tolerance)
     throw Error(where, fmt::format("the point ({}) lies outside the mesh '{}' of field '{}'",
                                    fmt::join(position, ", "), mesh.name(), entry.name));
-  const double mine = best <= overall + 1e-10 ? communicator.rank() : communicator.size();
-  if (communicator.min(mine) != communicator.rank()) cell_ = -1;
+  // Gradients differ between the cells that meet at a point: the one with the lowest number, whatever the
+  // ranks.
+  double lowest = std::numeric_limits<double>::max();
+  for (const Candidate& candidate : candidates) {
+    if (candidate.outside > overall + 1e-10 || mesh.global_cell(candidate.cell) >= lowest) continue;
+    lowest = mesh.global_cell(candidate.cell);
+    cell_ = candidate.cell;
+    reference_ = candidate.reference;
+  }
+  if (communicator.min(lowest) != lowest) cell_ = -1;
 }
 
 std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQuantity& quantity,
