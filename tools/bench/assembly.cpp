@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Tangent assembly, matrix insertion included: microseconds per cell, and memory beside the matrix.
-//   seam-bench-assembly [cells per side of the cube] [cells per side of the square]
-// The same two forms and meshes are timed in DOLFINx by dolfinx_assembly.py, in one run by assembly.sh.
+//   seam-bench-assembly [cells per side of the cube] [cells per side of the square] [... of a solid and a
+//   porous square]
+// The last compares a porous body with a solid one, by the plugins' own terms and per entry of the cells'
+// matrices. The same two forms and meshes are timed in DOLFINx by dolfinx_assembly.py, in one run by
+// assembly.sh.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -9,10 +12,12 @@
 #include <fstream>
 #include <string>
 
+#include "poroelasticity/kernels.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/mesh/input/grid.hpp"
 #include "seam/solve/problem.hpp"
 #include "seam/term/kernel_term.hpp"
+#include "solid/kernels.hpp"
 
 namespace {
 
@@ -55,20 +60,38 @@ struct NavierStokes {
   }
 };
 
+using Terms = std::vector<std::shared_ptr<const Term>>;
+
 class Carrier final : public Physics {
  public:
-  Carrier(std::vector<Unknown> unknowns, std::shared_ptr<const Term> term)
-      : unknowns_(std::move(unknowns)), term_(std::move(term)) {}
+  Carrier(std::vector<Unknown> unknowns, Terms terms)
+      : unknowns_(std::move(unknowns)), terms_(std::move(terms)) {}
   [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return unknowns_; }
   void build(FieldSetup& setup) const override {
     std::vector<std::string> names;
     for (const Unknown& u : unknowns_) names.push_back(u.name);
-    setup.add_cell_term(term_, names);
+    for (const auto& term : terms_)
+      setup.add_cell_term(term, {names.begin(), names.begin() + operands(*term)});
+    // Zeros would spare the assembly work.
+    for (const Unknown& u : unknowns_)
+      for (int c = 0; c < u.components; ++c)
+        setup.set_initial(u.name, c, Expression(fmt::format("0.05*sin(2*x + 3*y + {})", c + 1), {}));
   }
 
  private:
+  static long operands(const Term& term) { return static_cast<long>(term.signature(2).components.size()); }
   std::vector<Unknown> unknowns_;
-  std::shared_ptr<const Term> term_;
+  Terms terms_;
+};
+
+/// Plane strain, thesis (2.17), as an energy: the solid plugin's way.
+struct Energy {
+  double c = 5, beta = 0.75;
+  template <class T>
+  T energy(const std::array<T, 3>& invariant) const {
+    using std::expm1, std::log;
+    return c * (invariant[0] - 3.0) + (c / beta) * expm1(-2 * beta * log(invariant[2]));
+  }
 };
 
 /// Resident memory of this process now, bytes.
@@ -79,8 +102,10 @@ double resident() {
   return own * 4096;
 }
 
-void run(const std::string& what, CellType cell, int n, const std::vector<Unknown>& unknowns,
-         const std::shared_ptr<const Term>& term) {
+/// @param step 0 for a static form at rest; else its length, s, and the unknowns are away from zero
+/// @return seconds per cell
+double run(const std::string& what, CellType cell, int n, const std::vector<Unknown>& unknowns,
+           const Terms& terms, double step = 0) {
   const Communicator world;
   auto problem = std::make_unique<Problem>(world);
   {
@@ -89,13 +114,14 @@ void run(const std::string& what, CellType cell, int n, const std::vector<Unknow
     for (int d = 0; d < topology(cell).dimension; ++d) grid.lines[d] = graded_lines(0, 1, n);
     auto data = std::make_shared<MeshData>(make_grid(grid));
     problem->add_field("field", std::make_shared<Mesh>("box", data, world),
-                       std::make_unique<Carrier>(unknowns, term));
+                       std::make_unique<Carrier>(unknowns, terms));
   }
   const double before = resident();
   const Stopwatch setup;
   problem->finish();
   const double pattern_seconds = setup.seconds();
-  TimePoint at = time_point(1, 0, 1);
+  if (step > 0) problem->initialise(0);
+  TimePoint at = time_point(1, step, 1);
   double best = 1e300;
   for (int repeat = 0; repeat < 5; ++repeat) {
     MPI_Barrier(world.handle());
@@ -115,18 +141,38 @@ void run(const std::string& what, CellType cell, int n, const std::vector<Unknow
         "of {:.0f} MB)\n",
         what, 1e6 * best / cells, world.size(), best, pattern_seconds, growth / 1e6, growth / matrix_bytes,
         matrix_bytes / 1e6);
+  return best / cells;
+}
+
+void compare_porous_with_solid(int n) {
+  const auto energy = std::make_shared<LawPotential<3, Energy>>(Energy{});
+  const Unknown displacement{"displacement", 2, 1, 2, ""};
+  const double solid = run("quad4 solid tangent", CellType::quadrilateral, n, {displacement},
+                           {make_term(solid::InternalForce{{energy}}), make_term(BodyInertia{1})}, 0.1);
+  const poro::Porosity porosity{0.4, false, 10, 0.5};
+  const poro::PoreFlow flow{1, 1, porosity, true, {5, 0, 0, 0, 10, 0, 0, 0, 7}};
+  const double porous = run("quad4 porous tangent", CellType::quadrilateral, n,
+                            {displacement, {"velocity", 2, 1, 1, ""}, {"pressure", 1, 1, 1, ""}},
+                            {make_term(poro::Storage{porosity, true}), make_term(poro::PoreMomentum{flow}),
+                             make_term(poro::Mixture{energy, flow}), make_term(BodyInertia{1})},
+                            0.1);
+  // 4 nodes with 2 and with 5 unknowns.
+  constexpr double solid_entries = 8 * 8, porous_entries = 20 * 20;
+  fmt::print("porous over solid, per entry: {:.2f}\n", porous / porous_entries / (solid / solid_entries));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   MPI_Init(&argc, &argv);
-  const int cube = argc > 1 ? std::atoi(argv[1]) : 32, square = argc > 2 ? std::atoi(argv[2]) : 200;
+  const int cube = argc > 1 ? std::atoi(argv[1]) : 32, square = argc > 2 ? std::atoi(argv[2]) : 200,
+            compared = argc > 3 ? std::atoi(argv[3]) : 0;
   if (square > 0)
     run("quad4 Navier-Stokes tangent", CellType::quadrilateral, square,
-        {{"velocity", 2, 1, 0, ""}, {"pressure", 1, 1, 0, ""}}, make_term(NavierStokes{}));
+        {{"velocity", 2, 1, 0, ""}, {"pressure", 1, 1, 0, ""}}, {make_term(NavierStokes{})});
   if (cube > 0)
     run("hex8 neo-Hookean tangent", CellType::hexahedron, cube, {{"displacement", 3, 1, 0, ""}},
-        make_term(NeoHookean{}));
+        {make_term(NeoHookean{})});
+  if (compared > 0) compare_porous_with_solid(compared);
   MPI_Finalize();
 }

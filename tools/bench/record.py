@@ -65,6 +65,19 @@ def assembly_on_two_ranks(bench, rounds):
     return lines
 
 
+def porous_against_solid(bench, rounds):
+    lines = ["## A porous cell against a solid one, one rank", "",
+             "Cell terms of `porous_solid` (five unknowns a node, changing porosity, Kozeny-Carman) and of `solid`, both with inertia and",
+             "away from rest.", "",
+             "| solid us/cell | porous us/cell | porous/solid, per entry of the cells' matrices (least, most) |", "|---|---|---|"]
+    runs = [figures(output([bench, "0", "0", "150"])) for _ in range(rounds)]
+    solid, porous = ([r[f"quad4 {kind} tangent"] for r in runs] for kind in ("solid", "porous"))
+    ratios = [p / 400 / (s / 64) for s, p in zip(solid, porous)]
+    lines.append(f"| {statistics.median(solid):.2f} | {statistics.median(porous):.2f} | {statistics.median(ratios):.2f} "
+                 f"({min(ratios):.2f}, {max(ratios):.2f}) |")
+    return lines
+
+
 def memory(bench):
     lines = ["## Memory of assembly, one rank", "", "| form | growth over the size before the pattern is built |", "|---|---|"]
     for arguments in (["64", "0"], ["0", "600"]):
@@ -116,6 +129,7 @@ def main():
     if arguments.peer:
         lines += assembly_against_peer(bench, arguments.peer, arguments.rounds) + [""]
     lines += assembly_on_two_ranks(bench, arguments.rounds) + [""] + memory(bench) + [""]
+    lines += porous_against_solid(bench, arguments.rounds) + [""]
     lines += large_elasticity(seam, arguments.large)
     Path(arguments.out).parent.mkdir(parents=True, exist_ok=True)
     Path(arguments.out).write_text("\n".join(lines) + "\n")
