@@ -33,7 +33,7 @@ std::string refusal(const std::string& change) {
 
 }  // namespace
 
-TEST_CASE("errors in a background and in a patch that moves through it are of second order") {
+TEST_CASE("errors in a background and in a patch that moves through it are of second order", "[study]") {
   const Folder folder;
   for (const int n : {10, 20})
     REQUIRE(seam(fmt::format("run " SEAM_SOURCE_DIR

@@ -3,8 +3,8 @@ DefineConstant[
   width = 0.12,   // of the stem
   radius = 0.12,  // of the tip
   h = 0.015,      // size of the beam's cells
-  thick = 0.024,  // of all layers
-  layers = 3
+  thick = 0.05,   // of all layers
+  layers = 5
 ];
 x = 0.75;
 For k In {0:1}

@@ -137,18 +137,23 @@ struct OnMovingMesh {
       } else if constexpr (R::shape == Shape::gradient) {
         push_forward<dim, components>(map, from, &input[to]);
       } else {
-        // At a place: the mesh's point passes it with the mesh's velocity.
-        T gradient[components * dim];
-        push_forward<dim, components>(
-            map, s.data + Reads::template offset<Gradient<typename R::operand>>(dim), gradient);
-        const Vec<dim, T> speed = s.rate(Mesh{});
-        for (int c = 0; c < components; ++c) {
-          input[to + c] = from[c];
-          for (int i = 0; i < dim; ++i) input[to + c] -= gradient[c * dim + i] * speed[i];
-        }
+        rate_at_place<dim, T, R>(map, s, &input[to]);
       }
     });
     return input;
+  }
+  /// The mesh's point passes the place with the mesh's velocity.
+  template <int dim, class T, class R>
+  static void rate_at_place(const MeshMap<dim, T>& map, const Trial<dim, T, Reads>& s, T* rate) {
+    constexpr int components = R::operand::components(dim);
+    T gradient[components * dim];
+    push_forward<dim, components>(map, s.data + Reads::template offset<Gradient<typename R::operand>>(dim),
+                                  gradient);
+    const T* speed = s.data + Reads::template offset<Rate<Mesh>>(dim);
+    for (int c = 0; c < components; ++c) {
+      rate[c] = s.data[Reads::template offset<R>(dim) + c];
+      for (int i = 0; i < dim; ++i) rate[c] -= gradient[c * dim + i] * speed[i];
+    }
   }
   template <int dim, int components, class T>
   static void push_forward(const MeshMap<dim, T>& map, const T* reference, T* gradient) {
