@@ -3,25 +3,14 @@
 
 #include <limits>
 
+#include "seam/interface/adjoint.hpp"
+
 namespace seam::fluid {
 namespace {
 
 constexpr double usual_penalty = 35;  ///< thesis 3.5 to 7.4
 
 }  // namespace
-
-void declare_adjoint(Schema& schema) {
-  schema
-      .choice("adjoint", "Viscous adjoint term: `skew` (xi = 1) is stable for every penalty",
-              {"skew", "symmetric", "none"})
-      .otherwise("skew");
-}
-
-double adjoint_of(const Parameters& parameters) {
-  const std::string& choice = parameters.text("adjoint");
-  if (choice == "skew") return 1;
-  return choice == "symmetric" ? -1 : 0;
-}
 
 void declare_weak_condition(Schema& schema) {
   schema.number("slip_length", "Navier's: 0 is no slip, .inf leaves the tangential traction alone")

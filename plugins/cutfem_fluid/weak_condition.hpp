@@ -7,10 +7,6 @@
 
 namespace seam::fluid {
 
-/// Declares the key `adjoint` of the viscous adjoint term, and reads it: xi.
-void declare_adjoint(Schema& schema);
-double adjoint_of(const Parameters& parameters);
-
 /// Declares how a velocity is imposed weakly: slip_length, wall_traction, adjoint and penalty.
 void declare_weak_condition(Schema& schema);
 

@@ -12,18 +12,6 @@ Flow flow_of(const CouplingSides& sides) {
   return {fluid.constant("density"), fluid.constant("viscosity"), fluid.constant("convection") != 0};
 }
 
-void declare_adjoint(Schema& schema) {
-  schema
-      .choice("adjoint", "Adjoint term: `skew` (xi = 1) is stable for every penalty",
-              {"skew", "symmetric", "none"})
-      .otherwise("skew");
-}
-
-double adjoint_of(const Parameters& parameters) {
-  const std::string& name = parameters.text("adjoint");
-  return name == "skew" ? 1.0 : (name == "symmetric" ? -1.0 : 0.0);
-}
-
 Ties ties_of(const Parameters& parameters) {
   const Parameters& penalty = parameters.object("penalty");
   return {adjoint_of(parameters), penalty.number("normal"), penalty.number("tangential")};

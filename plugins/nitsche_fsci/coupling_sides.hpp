@@ -3,6 +3,7 @@
 
 #include "contact_kernels.hpp"
 #include "fluid_sided.hpp"
+#include "seam/interface/adjoint.hpp"
 #include "seam/interface/interface.hpp"
 
 /// What the plugin's couplings have in common.
@@ -11,9 +12,6 @@ namespace seam::fsci {
 /// What a coupling needs to know of the fluid on side 0.
 Flow flow_of(const CouplingSides& sides);
 
-/// Adds the key `adjoint`, of the fluid's viscous adjoint term, and reads it: xi.
-void declare_adjoint(Schema& schema);
-double adjoint_of(const Parameters& parameters);
 /// From the keys `adjoint` and `penalty`.
 Ties ties_of(const Parameters& parameters);
 

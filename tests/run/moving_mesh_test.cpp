@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "cli/run_command.hpp"
 #include "series.hpp"
@@ -13,10 +14,7 @@ namespace {
 
 /// A number from the summary of a run.
 double result(const Folder& folder, const std::string& where, const std::string& name) {
-  const std::string summary = folder.read(where + "/summary.json"), key = "\"" + name + "\":";
-  const std::size_t at = summary.rfind(key);
-  REQUIRE(at != std::string::npos);
-  return std::stod(summary.substr(at + key.size()));
+  return nlohmann::json::parse(folder.read(where + "/summary.json")).at("results").at(name).get<double>();
 }
 
 const std::string fitted =

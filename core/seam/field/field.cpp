@@ -3,6 +3,8 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/cut_mesh.hpp"
 
@@ -46,6 +48,12 @@ void Field::resize(Block& block) {
 void Field::add_foreign(int block, const std::vector<Space::ForeignNode>& nodes) {
   blocks_[block].space->add_foreign(nodes);
   resize(blocks_[block]);
+}
+
+int Field::order() const {
+  int order = 1;
+  for (const Block& block : blocks_) order = std::max(order, block.space->order());
+  return order;
 }
 
 Field::Place Field::place(const std::string& unknown) const {

@@ -85,6 +85,8 @@ class Field {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   [[nodiscard]] const std::vector<Unknown>& unknowns() const { return unknowns_; }
+  /// Highest polynomial order of the unknowns.
+  [[nodiscard]] int order() const;
   /// @throws Error listing the field's unknowns
   [[nodiscard]] Place place(const std::string& unknown) const;
   /// A constant that the field's physics makes known, such as "viscosity".

@@ -113,18 +113,12 @@ class Difference {
   std::optional<MovedPoints> moved_;
 };
 
-int order_of(const FieldEntry& entry) {
-  int order = 1;
-  for (const Block& block : entry.field->blocks()) order = std::max(order, block.space->order());
-  return order;
-}
-
 }  // namespace
 
 ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
                        const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
                        double time) {
-  const CellDomain cells(*entry.field, 2 * order_of(entry) + 4);
+  const CellDomain cells(*entry.field, 2 * entry.field->order() + 4);
   Difference difference(cells, 0, unknown, time,
                         entry.physics->moves_through_space() ? entry.physics->displacement() : "");
   ErrorNorms norms;

@@ -69,12 +69,6 @@ std::vector<double> integrate(const IntegrationDomain& domain, const NamedQuanti
   return sum;
 }
 
-int highest_order(const FieldEntry& entry) {
-  int order = 1;
-  for (const Block& block : entry.field->blocks()) order = std::max(order, block.space->order());
-  return order;
-}
-
 }  // namespace
 
 NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
@@ -132,7 +126,7 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
 
 std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity,
                                   const TimePoint& at) {
-  const CellDomain cells(*entry.field, 2 * highest_order(entry));
+  const CellDomain cells(*entry.field, 2 * entry.field->order());
   return integrate(cells, quantity, at, entry.field->mesh().communicator());
 }
 
@@ -140,7 +134,7 @@ std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector
                                       const NamedQuantity& quantity, const TimePoint& at) {
   std::vector<double> sum(quantity.components, 0.0);
   for (const std::string& name : boundaries) {
-    const BoundaryDomain faces(*entry.field, name, 2 * highest_order(entry));
+    const BoundaryDomain faces(*entry.field, name, 2 * entry.field->order());
     const auto part = integrate(faces, quantity, at, entry.field->mesh().communicator());
     for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += part[c];
   }

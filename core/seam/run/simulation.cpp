@@ -92,7 +92,7 @@ class Simulation::Setup final : public InterfaceSetup {
     for (const std::string& name : names) {
       entries_.push_back(&simulation.problem_.field(name));
       sides.push_back(entries_.back()->field.get());
-      for (const Block& block : sides.back()->blocks()) order = std::max(order, block.space->order());
+      order = std::max(order, sides.back()->order());
     }
     degree = 2 * order + extra_degree;
   }

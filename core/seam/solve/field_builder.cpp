@@ -16,17 +16,11 @@ std::vector<Operand> on_side_zero(const std::vector<std::string>& unknowns) {
   return operands;
 }
 
-int order_of(const Field& field) {
-  int order = 1;
-  for (const Block& block : field.blocks()) order = std::max(order, block.space->order());
-  return order;
-}
-
 }  // namespace
 
 int cell_degree(const Field& field, const Term& term) {
   const Mesh& mesh = field.mesh();
-  const int order = order_of(field);
+  const int order = field.order();
   const Signature& s = term.signature(mesh.dimension());
   const bool simplex = mesh.type() == CellType::triangle || mesh.type() == CellType::tetrahedron;
   const auto is_gradient = [](const Slot& slot) { return slot.shape == Shape::gradient; };
@@ -58,8 +52,6 @@ std::vector<int> boundary_nodes(const Field& field, int block, const std::string
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
-
-int FieldBuilder::highest_order() const { return order_of(*entry_.field); }
 
 std::vector<std::string> FieldBuilder::boundaries() const {
   std::vector<std::string> names;
@@ -165,19 +157,19 @@ void FieldBuilder::add_uncut_cell_term(std::shared_ptr<const Term> term, std::ve
 
 void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                      std::vector<std::string> operands) {
-  const int degree = 2 * highest_order() + term->extra_degree();
+  const int degree = 2 * entry_.field->order() + term->extra_degree();
   boundary_terms_[{boundary, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) {
-  const int degree = 2 * highest_order() + term->extra_degree();
+  const int degree = 2 * entry_.field->order() + term->extra_degree();
   face_terms_[{InteriorFaceDomain::Faces::all, degree}].push_back(
       bind(std::move(term), std::move(operands), 2));
 }
 
 void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
                                        std::vector<Operand> operands) {
-  const int degree = 2 * highest_order() + term->extra_degree();
+  const int degree = 2 * entry_.field->order() + term->extra_degree();
   const auto which =
       faces == GhostFaces::all ? InteriorFaceDomain::Faces::ghost : InteriorFaceDomain::Faces::wet_ghost;
   face_terms_[{which, degree}].push_back(bind(std::move(term), std::move(operands), 2));

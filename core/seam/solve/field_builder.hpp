@@ -47,7 +47,6 @@ class FieldBuilder final : public FieldSetup {
   [[nodiscard]] Moments moments() const override;
 
  private:
-  [[nodiscard]] int highest_order() const;
   /// With the region in which it holds on these sides.
   [[nodiscard]] BoundTerm bind(std::shared_ptr<const Term> term, std::vector<Operand> operands,
                                int sides = 1) const;
