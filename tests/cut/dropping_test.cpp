@@ -2,6 +2,8 @@
 // Parts of a field too small to be kept, through the cuts of one step.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
 
 #include "cut/cut_test.hpp"
 #include "seam/base/diagnostics.hpp"
@@ -131,4 +133,42 @@ TEST_CASE("Held cells keep their unknowns to the end of the step though a body c
   radius = 0.28;
   CHECK(cut.update(0));
   CHECK(active() < before);
+}
+
+TEST_CASE("A piece laid onto the mouth of what is dropped stands for no more of its facet than it weighs",
+          "[cut][parts]") {
+  // An oblique channel, much narrower than a cell, whose upper half is dropped.
+  const double wide = 1e-3;
+  const auto wall = [](double left, double right) {
+    return polygon(
+        {{left - .05, .15, 0}, {right - .05, .15, 0}, {right + .05, .85, 0}, {left + .05, .85, 0}});
+  };
+  const Mesh mesh = grid(CellType::quadrilateral, {10, 10, 0}, unmoved());
+  CutMesh cut(mesh);
+  cut.cut(std::vector{wall(.25, .45), wall(.45 + wide, .65)});
+  std::vector<int> upper;
+  for (int c = 0; c < mesh.cells(); ++c)
+    if (mesh.geometry(c)[1] > .49 && mesh.geometry(c)[1] < .89 && cut.state(c) == CellState::cut &&
+        mesh.geometry(c)[0] > .39 && mesh.geometry(c)[0] < .51)
+      upper.push_back(c);
+  REQUIRE(cut.drop(upper) > 0);
+
+  const double length = std::hypot(.1, .7);
+  double laid = 0;
+  for (const int c : cut.cut_cells()) {
+    InterfaceRule rule;
+    cut.interface_rule(c, 2, rule);
+    std::map<std::array<double, 4>, double> weight;  // of each piece: body, facet and where it is
+    for (int q = 0; q < rule.count(); ++q) {
+      const double from = rule.span[2 * q], to = rule.span[2 * q + 1];
+      weight[{double(rule.body[q]), double(rule.facet[q]), from, to}] += rule.weight[q];
+      if (std::abs(rule.normal[2 * q + 1]) > .999 && std::abs(rule.position[2 * q + 1] - .5) < 1e-9)
+        laid += rule.weight[q];
+    }
+    for (const auto& [piece, sum] : weight) {
+      const bool is_long = piece[1] == 1 || piece[1] == 3;
+      if (is_long) CHECK(std::abs(piece[3] - piece[2]) * length <= sum * (1 + 1e-9));
+    }
+  }
+  CHECK(laid == Approx(wide).epsilon(1e-6));
 }

@@ -45,6 +45,22 @@ std::array<double, 2> on_facet(const Surface& surface, int facet, const Vector& 
   return {s[0] / sum, s[1] / sum};
 }
 
+double facet_length(const Surface& surface, int facet) {
+  const double* a = &surface.points[static_cast<std::size_t>(surface.facets[facet * 2]) * 2];
+  const double* b = &surface.points[static_cast<std::size_t>(surface.facets[facet * 2 + 1]) * 2];
+  return std::hypot(b[0] - a[0], b[1] - a[1]);
+}
+
+/// In the plane a piece that is laid onto a narrow mouth stands for no more of its facet than it weighs: the
+/// rest of that is not wet.
+void shorten(double& from, double& to, double most) {
+  const double excess = std::abs(to - from) - most;
+  if (excess <= 0) return;
+  const double each = std::copysign(excess / 2, to - from);
+  from += each;
+  to -= each;
+}
+
 /// Onto the closest point of the reference cell, as good as its coordinates allow.
 Vector into_cell(CellType type, Vector reference) {
   double sum = 0;
@@ -140,7 +156,9 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
     if (dim == 2) {
       const double area = -piece.scale * dot(vector_area(dim, x[0], x[1], x[1]), piece.normal);
       if (area == 0) continue;
-      const double from = place(piece, x[0])[0], to = place(piece, x[1])[0];
+      auto [from, to] = std::pair(place(piece, x[0])[0], place(piece, x[1])[0]);
+      if (piece.handed_over)
+        shorten(from, to, area / facet_length(geometry_->bodies[piece.body], piece.facet));
       std::vector<double> ends{0};  // shares of the piece
       if (breaks && !piece.handed_over)
         for (const double at : breaks(piece.body, piece.facet, from, to))
