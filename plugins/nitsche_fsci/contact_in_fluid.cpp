@@ -40,6 +40,14 @@ class ContactInFluid final : public Coupling {
         .above(0)
         .optional();
     s.object("near_slip", "Additional slip near the other surface", slip).otherwise("{}");
+    s.number(
+         "extension_reach",
+         "How far the fluid's traction reaches into contact: linearly less of it up to there, dry contact "
+         "beyond; .inf takes that at the nearest wet point for all of it")
+        .unit("m")
+        .otherwise(".inf")
+        .above(0)
+        .or_infinite();
     declare_adjoint(s);
     Schema penalty("Factors of Nitsche's penalty.");
     penalty.number("normal", "For the velocity across the interface, thesis (3.26)").otherwise("35").above(0);
@@ -55,16 +63,16 @@ class ContactInFluid final : public Coupling {
     const std::vector<SideConstant> scale = scales(sides);
     return {{make_term(fluid_sided(sides), 1), free_operands, {}, "free"},
             {make_term(FluidSidedNear{fluid_sided(sides)}, 1), free_operands, {}, "near"},
-            {make_term(NearContact{pulls<Displacement>(sides)}, 1), near_operands, scale, "near"},
-            {make_term(ClosedContact{pulls<EdgeDisplacement>(sides)}, 1), closed_operands, scale, "closed"}};
+            {make_term(near_contact(sides), 1), near_operands, scale, "near"},
+            {make_term(closed_contact(sides), 1), closed_operands, scale, "closed"}};
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
     using Near = TouchState<NearContact>;
     using Closed = TouchState<ClosedContact>;
     const std::vector<SideConstant> scale = scales(sides);
-    const NearContact near{pulls<Displacement>(sides)};
-    const ClosedContact closed{pulls<EdgeDisplacement>(sides)};
+    const NearContact near = near_contact(sides);
+    const ClosedContact closed = closed_contact(sides);
     const FluidSided flow = fluid_sided(sides);
     const auto on_wet = [](const std::shared_ptr<const Term>& term,
                            const std::vector<Operand>& operands = free_operands) {
@@ -108,11 +116,17 @@ class ContactInFluid final : public Coupling {
              near.has("reach") ? near.number("reach") : 0.0},
             ties_of(parameters_)};
   }
-  template <class Body>
-  [[nodiscard]] Pulls<Body> pulls(const CouplingSides& sides) const {
-    const Parameters& penalty = parameters_.object("penalty");
-    return {{flow_of(sides), penalty.number("normal")},
-            body_pull(parameters_, sides, 1, 2, penalty.number("contact"))};
+  [[nodiscard]] FluidPull fluid_pull(const CouplingSides& sides) const {
+    return {flow_of(sides), parameters_.object("penalty").number("normal")};
+  }
+  [[nodiscard]] BodyPull bodies(const CouplingSides& sides) const {
+    return body_pull(parameters_, sides, 1, 2, parameters_.object("penalty").number("contact"));
+  }
+  [[nodiscard]] NearContact near_contact(const CouplingSides& sides) const {
+    return {{fluid_pull(sides), bodies(sides)}};
+  }
+  [[nodiscard]] ClosedContact closed_contact(const CouplingSides& sides) const {
+    return {{fluid_pull(sides), bodies(sides)}, parameters_.number("extension_reach")};
   }
   [[nodiscard]] std::vector<SideConstant> scales(const CouplingSides& sides) const {
     return {{1, scale_of(parameters_, sides, 1)}, {2, scale_of(parameters_, sides, 2)}};

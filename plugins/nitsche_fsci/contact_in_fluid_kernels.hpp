@@ -42,10 +42,11 @@ struct FluidSidedNear : FluidSided {
 };
 
 /// F and S at a point that has an opposite one. @tparam Body the displacement whose rate v is compared with
-template <class Body>
+/// @tparam More what else is read
+template <class Body, class... More>
 struct Pulls {
   using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Body>,
-                      Gradient<Displacement>, Gradient<OppositeDisplacement>>;
+                      Gradient<Displacement>, Gradient<OppositeDisplacement>, More...>;
   using Tests = Slots<Value<Displacement>>;
   FluidPull fluid;
   BodyPull bodies;
@@ -73,9 +74,23 @@ struct NearContact : Pulls<Displacement> {
   }
 };
 
-/// min(F, S) for the body at closed points.
-struct ClosedContact : Pulls<EdgeDisplacement> {
+/// min(F, S) for the body at closed points. F fades to nothing, as in dry contact, within `reach` of the wet
+/// point that it is taken from: thesis, Remark 6.12.
+struct ClosedContact : Pulls<EdgeDisplacement, Value<Displacement>> {
   static constexpr int movers = 4;
+  double reach;  ///< m, may be infinite
+
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    using std::sqrt;
+    const T edge = Pulls::of_fluid<dim, T, G>(x, s);
+    if (std::isinf(reach)) return edge;
+    Vec<dim, T> way = s.value(Displacement{});
+    way += x.partner_position - x.position;
+    const T square = dot(way, way);
+    if (plain(square) >= reach * reach) return T(0.0);
+    return plain(square) > 0 ? (1 - (1 / reach) * sqrt(square)) * edge : edge;
+  }
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
