@@ -32,6 +32,11 @@ void append(const std::vector<double>& from, std::vector<double>& to) {
   to.insert(to.end(), from.begin(), from.end());
 }
 
+PairMotion no_motion(std::size_t dim, std::size_t moves) {
+  return {std::vector<double>(dim * moves), std::vector<double>(moves), std::vector<double>(moves),
+          std::vector<double>((dim - 1) * moves)};
+}
+
 /// What a facet's wet stretches leave over.
 std::vector<std::pair<double, double>> rest(std::vector<std::pair<double, double>> wet) {
   std::ranges::sort(wet);
@@ -85,18 +90,12 @@ EmbeddedSurface::Key EmbeddedSurface::key_of(const Element& e) {
   return {e.outside.cell, e.outside.part, e.group, e.other_group, e.own_edge_group, e.other_edge_group};
 }
 
-/// In the plane: where on a wet part of a facet the facet opposite changes. A part that has no opposite one
-/// somewhere stays whole: points there do not know the vertices that the places follow.
-/// @param moving appended: the same places, with these vertices
+/// In the plane: where on a wet part of a facet the facet opposite changes.
+/// @param moving appended: the same places, with the vertices that they follow
 std::vector<double> EmbeddedSurface::divide(int facet, double from, double to, const OppositePoints& opposite,
                                             std::vector<OppositePoints::Break>& moving) {
-  const std::vector<OppositePoints::Stretch> stretches = opposite.stretches(facet, from, to);
-  for (const OppositePoints::Stretch& stretch : stretches) {
-    const double middle = 0.5 * (stretch.from.share + stretch.to.share);
-    if (!opposite.find(facet, &middle)) return {};
-  }
   std::vector<double> places;
-  for (const OppositePoints::Stretch& stretch : stretches)
+  for (const OppositePoints::Stretch& stretch : opposite.stretches(facet, from, to))
     if (stretch.from.vertex >= 0) {
       places.push_back(stretch.from.share);
       moving.push_back(stretch.from);
@@ -125,7 +124,15 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
       if (wet_.empty() || wet_.back().facet != facet || wet_.back().from != from)
         wet_.push_back({facet, from, to, 0});
     }
-    const auto hit = opposite.find(facet, &rule.facet_reference[at * (dim - 1)]);
+    const double* on_facet = &rule.facet_reference[at * (dim - 1)];
+    auto hit = opposite.find(facet, on_facet);
+    const bool is_opposite = hit.has_value();
+    OppositePoints::Stretch stretch{};
+    if (dim == 2) {
+      stretch = stretch_at(facet, &rule.span[2 * at], inner[facet], opposite);
+      if (!hit && (stretch.from.follows() || stretch.to.follows()))
+        hit = opposite.far_hit(facet, on_facet, std::max(stretch.from.facet, stretch.to.facet));
+    }
     const int group = own_->group(facet), other_group = hit ? other_->group(hit->facet) : -1;
     const Part which = hit ? near : free;
     const auto [found, is_new] = place.try_emplace({group, other_group}, which, elements_[which].size());
@@ -151,7 +158,7 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
       element.outside.reference.push_back(rule.reference[at * dim + d]);
       element.normal.push_back(rule.normal[at * dim + d]);
     }
-    own_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], element.own.reference);
+    own_->to_cell(facet, on_facet, element.own.reference);
     element.own.weight.push_back(rule.weight[q]);
     if (hit) element.other.weight.push_back(rule.weight[q]);
     PointMotion& moving = element.motion;
@@ -162,30 +169,35 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
     append_rows(&motion.relative_weight[at * moves], 1, moves, wide, moving.relative_weight);
     std::vector<double> slide;
     append_rows(&motion.facet_reference[at * (dim - 1) * moves], dim - 1, moves, wide, slide);
-    if (hit && dim == 2)
-      add_edge_motion(*hit, &rule.span[2 * at], &motion.span[8 * at], inner[facet], opposite, slide, moving);
+    if (hit && dim == 2) add_edge_motion(*hit, stretch, &motion.span[8 * at], opposite, slide, moving);
     own_->motion_to_cell(facet, slide.data(), static_cast<int>(wide), moving.reference[1]);
-    if (hit) add_partner(element, *hit, pair_motion(hit->pair, static_cast<int>(wide), slide));
+    if (is_opposite)
+      add_partner(element, *hit, pair_motion(hit->pair, static_cast<int>(wide), slide));
+    else if (hit)
+      add_partner(element, *hit, no_motion(dim, wide));
   }
+}
+
+OppositePoints::Stretch EmbeddedSurface::stretch_at(int facet, const double* span,
+                                                    const std::vector<OppositePoints::Break>& inner,
+                                                    const OppositePoints& opposite) {
+  const auto end_at = [&](double share) {
+    const auto found = std::ranges::find_if(
+        inner, [&](const OppositePoints::Break& b) { return std::abs(b.share - share) < hair; });
+    return found != inner.end() ? *found : opposite.end_at(facet, share);
+  };
+  return {end_at(span[0]), end_at(span[1])};
 }
 
 /// In the plane: points keep their share of a piece, and the cut lets one that ends on another body keep its
 /// place on the facet. Adds how such ends follow that body, and how inner ends follow the vertices opposite.
-void EmbeddedSurface::add_edge_motion(const OppositePoints::Hit& hit, const double* span,
-                                      const double* span_motion,
-                                      const std::vector<OppositePoints::Break>& inner,
-                                      const OppositePoints& opposite, std::vector<double>& slide,
-                                      PointMotion& motion) {
-  const auto end_at = [&](double share) {
-    const auto found = std::ranges::find_if(
-        inner, [&](const OppositePoints::Break& b) { return std::abs(b.share - share) < hair; });
-    if (found != inner.end()) return *found;
-    const OppositePoints::Break end = opposite.end_at(hit.own_facet, share);
-    return end.facet == hit.facet ? end : OppositePoints::Break{share};
-  };
-  const OppositePoints::Stretch stretch{end_at(span[0]), end_at(span[1])};
-  const auto follows = [](const OppositePoints::Break& b) { return b.facet >= 0 || b.vertex >= 0; };
-  if (!follows(stretch.from) && !follows(stretch.to)) return;
+void EmbeddedSurface::add_edge_motion(const OppositePoints::Hit& hit, OppositePoints::Stretch stretch,
+                                      const double* span_motion, const OppositePoints& opposite,
+                                      std::vector<double>& slide, PointMotion& motion) {
+  // A point knows one facet only.
+  for (OppositePoints::Break* end : {&stretch.from, &stretch.to})
+    if (end->crosses() && end->facet != hit.facet) *end = {end->share};
+  if (!stretch.from.follows() && !stretch.to.follows()) return;
   std::vector<double> more, growth;
   opposite.stretch_motion(hit, stretch, 8, more, growth);
   const double place = (hit.pair.on_own[0] - stretch.from.share) / stretch.length();

@@ -78,10 +78,14 @@ class EmbeddedSurface {
   void refuse_passed(int facet, const double* on_facet, const OppositePoints& opposite) const;
   void add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
                         const OppositePoints& opposite);
-  /// Of the last point added. @param span its two ends @param span_motion [2][move], where they keep their
-  /// share of the piece @param inner ends that are no ends of the piece
-  static void add_edge_motion(const OppositePoints::Hit& hit, const double* span, const double* span_motion,
-                              const std::vector<OppositePoints::Break>& inner, const OppositePoints& opposite,
+  /// @param span two ends of a wet stretch @param inner ends of stretches that are no ends of pieces
+  static OppositePoints::Stretch stretch_at(int facet, const double* span,
+                                            const std::vector<OppositePoints::Break>& inner,
+                                            const OppositePoints& opposite);
+  /// Of the last point added. @param span_motion [2][move], of the stretch's ends where they keep their share
+  /// of the piece
+  static void add_edge_motion(const OppositePoints::Hit& hit, OppositePoints::Stretch stretch,
+                              const double* span_motion, const OppositePoints& opposite,
                               std::vector<double>& slide, PointMotion& motion);
   void add_edge(Element& element, const Element& source, std::size_t point) const;
   void add_partner(Element& element, const OppositePoints::Hit& hit, const PairMotion& change) const;

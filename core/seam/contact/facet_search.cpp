@@ -107,6 +107,10 @@ void FacetSearch::find_near(const double* low, const double* high, const double*
       bg::index::intersects(Box(Corner(low[0], low[1], low[2]), Corner(high[0], high[1], high[2])));
   for (auto entry = tree_->index.qbegin(query); entry != tree_->index.qend(); ++entry) {
     const int dim = surface_.dimension, facet = entry->second;
+    if (direction == nullptr) {
+      facets.push_back(facet);
+      continue;
+    }
     const std::array<Vector, 3> corner{vertex(surface_, facet, 0), vertex(surface_, facet, 1),
                                        dim == 3 ? vertex(surface_, facet, 2) : Vector{}};
     const Vector outwards = facet_normal(dim, corner);

@@ -33,7 +33,8 @@ class FacetSearch {
   /// @param reach how far ahead of it, m
   [[nodiscard]] std::optional<Hit> find(const double* x, const double* direction, double depth, double reach,
                                         const Exclude& exclude = {}) const;
-  /// Appends the facets whose outside faces a direction and whose boxes meet a box. @param low, high [3]
+  /// Appends the facets whose boxes meet a box. @param low, high [3]
+  /// @param direction which their outside faces; null: any
   void find_near(const double* low, const double* high, const double* direction,
                  std::vector<int>& facets) const;
   /// True where a point lies inside the surface and further than `margin`, m, from it: the first facet along

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seam {
 
@@ -84,6 +85,18 @@ std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double*
   return hit;
 }
 
+OppositePoints::Hit OppositePoints::far_hit(int facet, const double* on_facet, int other_facet) const {
+  Hit hit{facet, other_facet, {}};
+  FacetPair& pair = hit.pair;
+  pair.dimension = surface_.dimension;
+  pair.own = own_vertices(facet);
+  std::copy_n(on_facet, pair.dimension - 1, pair.on_own.begin());
+  pair.opposite = vertices(search_.surface(), other_facet);
+  pair.on_opposite = {0.25, 0.25};
+  pair.gap = std::numeric_limits<double>::infinity();
+  return hit;
+}
+
 std::vector<OppositePoints::Stretch> OppositePoints::stretches(int facet, double from, double to) const {
   if (surface_.dimension != 2) return {{{0}, {1}}};
   const std::array<Vector, 3> own = own_vertices(facet);
@@ -105,7 +118,7 @@ std::vector<OppositePoints::Stretch> OppositePoints::stretches(int facet, double
       const double share = dot(r, along) / dot(along, along), height = dot(r, direction);
       constexpr double least = 1e-9;
       if (share > from + least && share < to - least && height >= -window_.depth && height <= window_.reach)
-        breaks.push_back({share, vertex});
+        breaks.push_back({share, other, vertex});
     }
   std::ranges::sort(breaks, [](const Break& a, const Break& b) {
     return a.share != b.share ? a.share < b.share : a.vertex < b.vertex;
@@ -123,16 +136,18 @@ OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
   const Vector along = own[1] - own[0], x = own[0] + share * along, direction = normal(facet);
   const double reach = hair * std::sqrt(dot(along, along));
   const Vector margin{reach, reach, 0}, low = x - margin, high = x + margin;
-  std::vector<int> near;
-  search_.find_near(low.data(), high.data(), direction.data(), near);
-  for (const int other : near) {
-    const std::array<Vector, 3> v = vertices(search_.surface(), other);
-    const Vector edge = v[1] - v[0], way = x - v[0];
-    const double length = std::sqrt(dot(edge, edge)), there = dot(way, edge) / (length * length);
-    const double height = (way[0] * edge[1] - way[1] * edge[0]) / length;
-    const bool is_itself = is_itself_ && is_own_neighbourhood(facet, other);
-    if (!is_itself && std::abs(height) < reach && there > -hair && there < 1 + hair)
-      return {share, -1, other};
+  // One that faces this facet before one that meets it at an angle.
+  for (const double* facing : {direction.data(), static_cast<const double*>(nullptr)}) {
+    std::vector<int> near;
+    search_.find_near(low.data(), high.data(), facing, near);
+    for (const int other : near) {
+      const std::array<Vector, 3> v = vertices(search_.surface(), other);
+      const Vector edge = v[1] - v[0], way = x - v[0];
+      const double length = std::sqrt(dot(edge, edge)), there = dot(way, edge) / (length * length);
+      const double height = (way[0] * edge[1] - way[1] * edge[0]) / length;
+      const bool is_itself = is_itself_ && is_own_neighbourhood(facet, other);
+      if (!is_itself && std::abs(height) < reach && there > -hair && there < 1 + hair) return {share, other};
+    }
   }
   return {share};
 }
@@ -153,8 +168,8 @@ void OppositePoints::stretch_motion(const Hit& hit, const Stretch& stretch, int 
   };
   // share = (v - a).along/square
   const auto change = [&](const Break& end, int m) {
-    if (end.facet >= 0) return end.facet == hit.facet ? crossing(end, m) : 0.0;
-    if (end.vertex < 0 || (end.vertex != vertex[0] && end.vertex != vertex[1])) return 0.0;
+    if (end.crosses()) return end.facet == hit.facet ? crossing(end, m) : 0.0;
+    if (!end.follows() || (end.vertex != vertex[0] && end.vertex != vertex[1])) return 0.0;
     const int facet = m / 4, k = m % 4 / 2, c = m % 2;
     if (facet == 1) return end.vertex == vertex[k] ? along[c] / square : 0.0;
     const Vector v = pair.opposite[end.vertex == vertex[0] ? 0 : 1] - pair.own[0];

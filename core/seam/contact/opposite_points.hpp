@@ -31,6 +31,9 @@ class OppositePoints {
   };
   /// @param on_facet the facet's own coordinates, [dimension - 1]
   [[nodiscard]] std::optional<Hit> find(int facet, const double* on_facet) const;
+  /// Takes another facet for the one opposite, infinitely far away: for a point that has none, and whose
+  /// place depends on that facet.
+  [[nodiscard]] Hit far_hit(int facet, const double* on_facet, int other_facet) const;
   /// Whether a point has no opposite one for the reason that it lies inside of the other body, further than
   /// the window looks back.
   [[nodiscard]] bool has_passed(int facet, const double* on_facet) const;
@@ -39,11 +42,14 @@ class OppositePoints {
   /// m^(d-1), twice that in space.
   [[nodiscard]] double area(int facet) const;
 
-  /// Where a part of a facet begins or ends, in the plane.
+  /// Where a part of a facet begins or ends, in the plane: at a facet of the opposite surface that crosses
+  /// it, below a vertex of one, or else at a place that it keeps.
   struct Break {
     double share;     ///< of the facet's length
-    int vertex = -1;  ///< of the opposite surface that the end follows
-    int facet = -1;   ///< of the opposite surface that crosses this one there; else it keeps its place
+    int facet = -1;   ///< of the opposite surface
+    int vertex = -1;  ///< of that facet, where it does not cross
+    [[nodiscard]] bool follows() const { return facet >= 0; }
+    [[nodiscard]] bool crosses() const { return facet >= 0 && vertex < 0; }
   };
   struct Stretch {
     Break from, to;

@@ -112,6 +112,7 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   header["time"] = state.time;
   header["step"] = state.step;
   header["step_number"] = state.step_number;
+  header["largest"] = state.largest;
   header["scene_checksum"] = checksum(scene_text);
   // Series are no JSON: they may be infinite, as a gap is where nothing is opposite.
   header["times"] = state.results.time.size();
@@ -161,6 +162,7 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   state.time = header["time"];
   state.step = header["step"];
   state.step_number = header["step_number"];
+  state.largest = header.value("largest", std::vector<double>());
   state.results.time = take(header["times"]);
   for (const auto& series : header["series"]) state.results.series[series["name"]] = take(series["size"]);
   for (FieldEntry& entry : problem.fields())

@@ -14,7 +14,8 @@ struct RunState {
   double time = 0;
   double step = 0;  ///< next step to try, s
   long step_number = 0;
-  Results results;  ///< recorded so far
+  Results results;              ///< recorded so far
+  std::vector<double> largest;  ///< sizes of states so far, see time_error()
 };
 
 /// Writes the states of all fields and `state` as one file, by global node numbers, so that any number of

@@ -12,6 +12,7 @@
 #include "seam/run/derived.hpp"
 #include "seam/run/error_norms.hpp"
 #include "seam/run/progress.hpp"
+#include "seam/run/time_error.hpp"
 
 namespace seam {
 
@@ -340,7 +341,9 @@ bool Simulation::try_step(double until) {
     problem_.restore(before);
     return false;
   }
-  last_time_error_ = stepper_.adaptive() && !stepper_.is_static() ? time_error(at) : 0;
+  last_time_error_ = 0;
+  if (stepper_.adaptive() && !stepper_.is_static())
+    last_time_error_ = time_error(problem_, at.step, state_.largest);
   if (stepper_.too_inaccurate(last_time_error_, until - state_.time)) {
     reports_.back().converged = false;
     reports_.back().reason = fmt::format("its error in time is {:.1e}", last_time_error_);
@@ -351,24 +354,6 @@ bool Simulation::try_step(double until) {
   ++state_.step_number;
   record(at);
   return true;
-}
-
-/// Relative difference between the step and an explicit one that uses the old rate: half the step times the
-/// change of the rate, which is the local error of the implicit Euler method.
-double Simulation::time_error(const TimePoint& at) const {
-  double worst = 0;
-  for (const FieldEntry& entry : problem_.fields())
-    for (const Block& block : entry.field->blocks()) {
-      std::vector<double> sums(2, 0.0);
-      for (std::size_t i = 0; i < static_cast<std::size_t>(block.space->owned_nodes()) * block.size; ++i) {
-        if (block.time_order[i % block.size] == 0) continue;
-        sums[0] += std::pow(0.5 * at.step * (block.now.rate[i] - block.old.rate[i]), 2);
-        sums[1] += std::pow(block.now.value[i], 2);
-      }
-      communicator_.sum(sums);
-      if (sums[1] > 0) worst = std::max(worst, std::sqrt(sums[0] / sums[1]));
-    }
-  return worst;
 }
 
 void Simulation::record(const TimePoint& at) {

@@ -69,7 +69,6 @@ class Simulation {
   void open_outputs(double resume_time);
   bool try_step(double until);
   [[nodiscard]] TimePoint step_to(double until) const;
-  [[nodiscard]] double time_error(const TimePoint& at) const;
   void record(const TimePoint& at);
   void write_fields(const TimePoint& at);
   void write_results();

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/time_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "seam/cut/cut_mesh.hpp"
+
+namespace seam {
+namespace {
+
+constexpr double least_part = 0.01;  ///< of the largest state so far
+
+/// Of a cell's volume, that a part of it has.
+double share(const Field& field, int cell, int part) {
+  if (!field.is_cut(cell) || field.cut()->state(cell) == CellState::wet) return 1;
+  if (field.cut()->state(cell) == CellState::body) return 0;
+  return field.cut()->wet_volume(cell, part) / field.cut()->cell_volume(cell);
+}
+
+double time_error(const Field& field, const Block& block, int number, double step, double& largest) {
+  if (std::ranges::all_of(block.time_order, [](int order) { return order == 0; })) return 0;
+  std::vector<double> sums(2, 0.0);
+  for (int cell = 0; cell < field.mesh().owned_cells(); ++cell) {
+    if (!field.active_cells()[cell]) continue;
+    for (int part = 0; part < field.parts(cell); ++part) {
+      const double weight = share(field, cell, part);
+      const int* nodes = field.cell_nodes(number, cell, part);
+      for (int k = 0; k < block.space->nodes_per_cell(); ++k)
+        for (int c = 0; c < block.size; ++c) {
+          if (block.time_order[c] == 0) continue;
+          const std::size_t i = static_cast<std::size_t>(nodes[k]) * block.size + c;
+          sums[0] += weight * std::pow(0.5 * step * (block.now.rate[i] - block.old.rate[i]), 2);
+          sums[1] += weight * std::pow(block.now.value[i], 2);
+        }
+    }
+  }
+  field.mesh().communicator().sum(sums);
+  const double size = std::sqrt(sums[1]);
+  largest = std::max(largest, size);
+  return largest > 0 ? std::sqrt(sums[0]) / std::max(size, least_part * largest) : 0.0;
+}
+
+}  // namespace
+
+double time_error(const Problem& problem, double step, std::vector<double>& largest) {
+  double worst = 0;
+  std::size_t number = 0;
+  for (const FieldEntry& entry : problem.fields())
+    for (int b = 0; b < static_cast<int>(entry.field->blocks().size()); ++b, ++number) {
+      if (largest.size() == number) largest.push_back(0);
+      worst = std::max(worst, time_error(*entry.field, entry.field->blocks()[b], b, step, largest[number]));
+    }
+  return worst;
+}
+
+}  // namespace seam
