@@ -47,7 +47,7 @@ std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side) {
   std::shared_ptr<const Law> law = sides.law(side, "stress");
   if (!law)
     throw Error(
-        fmt::format("contact needs bodies that make their stress known; field '{}' does not (a solid "
+        fmt::format("the coupling needs bodies that make their stress known; field '{}' does not (a solid "
                     "does, unless its formulation is mixed)",
                     sides.fields[side]->name()));
   return law;

@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-constexpr double least_part = 0.01;  ///< of the largest state so far
+constexpr double least_part = 0.1;  ///< of the largest state so far
 
 /// Of a cell's volume, that a part of it has.
 double share(const Field& field, int cell, int part) {
