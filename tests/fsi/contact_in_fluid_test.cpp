@@ -13,7 +13,9 @@ namespace {
 std::string run(const Folder& folder, const std::string& where, const std::string& more) {
   return "run " SEAM_SOURCE_DIR
          "/plugins/nitsche_fsci/conformance/contact_in_fluid.yaml --quiet --no-picture "
-         "--set output.fields=false --set output.restart.every=1 --set time.end=0.42 --folder " +
+         "--set output.fields=false --set output.restart.every=1 --set time.end=0.42 --set "
+         "time.step.initial=0.02 "
+         "--folder " +
          (folder.path / where).string() + " " + more;
 }
 

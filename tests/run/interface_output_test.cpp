@@ -18,7 +18,7 @@ TEST_CASE("tables of an interface's points add up to what is recorded, on any nu
              before);
     INFO(run.output);
     REQUIRE(run.code == 0);
-    const std::string series = folder.read("series.csv"), table = folder.read("interfaces/down-00000013.csv");
+    const std::string series = folder.read("series.csv"), table = folder.read("interfaces/down-00000012.csv");
     const auto last = [&](const std::string& name) { return column(series, name).back(); };
     const std::vector<double> weight = column(table, "weight"), pull = column(table, "force.y"),
                               gap = column(table, "gap"), touch = column(table, "contact_area");

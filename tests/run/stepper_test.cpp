@@ -65,17 +65,16 @@ TEST_CASE("adaptive steps are small where a load sets in, grow, and can be taken
   CHECK(folder.read("first/series.csv") == folder.read("second/series.csv"));
 }
 
-TEST_CASE("an adaptive run that is resumed takes the steps of one that is not, while a motion dies away") {
+TEST_CASE("an adaptive run that is resumed takes the steps of one that is not") {
   const Folder folder;
-  // The scheme damps what the load leaves: the error is measured against the motion that was.
+  // It swings through rest, where the error is measured against the motion that was.
   const std::string file = folder.file(
-      "a.yaml", scene("t <= 0.5 ? 4*t : 0", "{end: 60, step: {initial: 0.02, adaptive: true, maximum: 4}}"));
+      "a.yaml", scene("t <= 0.5 ? 4*t : 0", "{end: 3, step: {initial: 0.02, adaptive: true, maximum: 4}}"));
   REQUIRE(run(folder, file, "whole").code == 0);
-  const std::vector<double> whole = times(folder, "whole");
-  CHECK(whole.back() - whole[whole.size() - 3] > 4);
-  const std::string part = file + " --set output.restart.every=20 --stop-after 40";
+  const std::size_t steps = times(folder, "whole").size();
+  const std::string part = file + " --set output.restart.every=20 --stop-after " + std::to_string(steps / 2);
   REQUIRE(run(folder, part, "part").code == 0);
-  REQUIRE(run(folder, file + " --resume", "part").code == 0);
+  REQUIRE(run(folder, file + " --resume --set output.restart.every=20", "part").code == 0);
   CHECK(folder.read("whole/series.csv") == folder.read("part/series.csv"));
 }
 
