@@ -66,7 +66,8 @@ class Fpi final : public Coupling {
   }
 
   /// The porosity is no polynomial, and what leaves the fluid should be what the body's own balance takes in.
-  [[nodiscard]] int extra_degree() const override { return 4; }
+  /// In space there are many pieces to a facet and each needs few points.
+  [[nodiscard]] int extra_degree(int dimension) const override { return dimension == 2 ? 4 : 1; }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
     Ties ties = ties_of(parameters_);

@@ -2,7 +2,8 @@
 // along z over the width of the channel, hexahedra.
 DefineConstant[
   spatial = 0,  // 1: in space
-  n = 1         // refines
+  n = 1,        // refines
+  fine = 0      // 1: in space, cells of 1/125 as in the source, about 62,000
 ];
 x[] = {0.35, 0.42, 0.43, 0.5, 1};
 y[] = {0.175, 0.23, 0.25, 0.27, 0.325};
@@ -11,6 +12,12 @@ up[] = {6, 2, 2, 6};
 If (spatial)
   along[] = {2, 1, 2, 6};
   up[] = {2, 1, 1, 2};
+  layers[] = {2, 4, 2};
+EndIf
+If (spatial && fine)
+  along[] = {9, 1, 9, 70};
+  up[] = {7, 2, 2, 7};
+  layers[] = {32, 64, 32};
 EndIf
 For i In {0:4}
   For j In {0:4}
@@ -59,7 +66,6 @@ If (!spatial)
   Physical Surface("plate") = plate[];
 Else
   width[] = {0.251, 0.5, 0.249};
-  layers[] = {2, 4, 2};
   solid[] = {};
   behind[] = {};
   ends[] = block[];
@@ -79,6 +85,9 @@ Else
   EndFor
   ends[] += front[];
   For s In {0:#below[] - 1}
+    sides[] = Boundary { Surface{below[s]}; };
+    Transfinite Curve{Abs(sides[0]), Abs(sides[2])} = n*along[3] + 1;
+    Transfinite Curve{Abs(sides[1]), Abs(sides[3])} = n*up[1 + s] + 1;
     Transfinite Surface{below[s]};
     Recombine Surface{below[s]};
     out[] = Extrude {0, 0, width[1]} { Surface{below[s]}; Layers{n*layers[1]}; Recombine; };

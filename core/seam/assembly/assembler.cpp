@@ -269,9 +269,7 @@ std::vector<EquationBlock> Assembler::equation_blocks() const {
     block.first = first;
     block.unknowns_per_node = b.block->size;
     block.dimension = b.field->mesh().dimension();
-    const std::vector<int>& time_order = b.block->time_order;
-    if (!time_order.empty() && time_order.front() > 0)
-      block.constraints = static_cast<int>(std::count(time_order.begin(), time_order.end(), 0));
+    block.unknowns = b.block->components;
     for (int node = 0; node < b.block->space->owned_nodes(); ++node) {
       if (b.node_index[node] < 0) continue;
       const double* x = b.block->space->position(node);

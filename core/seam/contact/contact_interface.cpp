@@ -5,6 +5,7 @@
 
 #include "seam/contact/contact_domain.hpp"
 #include "seam/contact/embedded_surface.hpp"
+#include "seam/cut/cut_boundary.hpp"
 
 namespace seam {
 namespace {
@@ -71,7 +72,7 @@ Surfaces surfaces(const Parameters& parameters, const std::string& own, Interfac
 }
 
 /// Beyond the traces' own degree, for a pressure that sets in within a facet.
-constexpr int extra_degree = 2;
+constexpr int pressure_degree = 2;
 
 }  // namespace
 
@@ -86,7 +87,7 @@ Schema ContactInterface::schema() {
 std::vector<InterfacePart> ContactInterface::build(InterfaceSetup& setup) const {
   const Surfaces both = surfaces(parameters_, "from", setup, 0);
   return {{"", std::make_shared<ContactDomain>(both.own, both.other, MovingSurface{}, both.range,
-                                               setup.degree + extra_degree)}};
+                                               setup.degree + setup.extra_degree + pressure_degree)}};
 }
 
 Schema ObstacleInterface::schema() {
@@ -101,9 +102,9 @@ Schema ObstacleInterface::schema() {
 std::vector<InterfacePart> ObstacleInterface::build(InterfaceSetup& setup) const {
   const auto own = body_surface(parameters_, "from", "boundaries", setup, 0);
   const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
-  return {
-      {"", std::make_shared<ContactDomain>(own, nullptr, obstacle_.surface({setup.sides[0]->mesh(), meshes}),
-                                           window(parameters_, *own, false), setup.degree + extra_degree)}};
+  return {{"", std::make_shared<ContactDomain>(
+                   own, nullptr, obstacle_.surface({setup.sides[0]->mesh(), meshes}),
+                   window(parameters_, *own, false), setup.degree + setup.extra_degree + pressure_degree)}};
 }
 
 Schema EmbeddedContactInterface::schema() {
@@ -121,7 +122,7 @@ std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([own = both.own](double) { return own->now(); });
   const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,
-                                                         both.range, setup.degree);
+                                                         both.range, facet_degree(setup));
   const auto part = [&](EmbeddedSurface::Part which) {
     return std::make_shared<EmbeddedPart>(surface, which);
   };

@@ -8,12 +8,14 @@
 namespace seam {
 
 CutBoundary::CutBoundary(Field& field, const FieldCut& cut, int body, int degree)
-    : field_(&field), cut_(&cut), body_(body), degree_(oblique_degree(field.mesh().type(), degree)) {}
+    : field_(&field), cut_(&cut), body_(body), degree_(degree) {}
 
 // In space two directions count: that is exact for all products of one function with a linear one, at 6
 // points a piece, not 16.
-int oblique_degree(CellType type, int degree) {
-  return type == CellType::quadrilateral || type == CellType::hexahedron ? 2 * degree : degree;
+int facet_degree(const InterfaceSetup& setup, int side) {
+  const CellType type = setup.sides[side]->mesh().type();
+  const bool tensor = type == CellType::quadrilateral || type == CellType::hexahedron;
+  return (tensor ? 2 : 1) * setup.degree + setup.extra_degree;
 }
 
 void CutBoundary::update(const Field& field) {

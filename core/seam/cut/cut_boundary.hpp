@@ -6,20 +6,22 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/interface/interface.hpp"
 #include "seam/interface/remote_cells.hpp"
 
 namespace seam {
 
-/// Degree to integrate on facets that lie askew in a cell: tensor cells count the degree per direction, and
-/// along an oblique facet the directions add up.
-int oblique_degree(CellType type, int degree);
+/// Degree to integrate on facets that lie askew in the cells of a side: tensor cells count the degree of
+/// their functions per direction, and along an oblique facet two directions add up. What couplings ask for
+/// beyond it counts as is.
+int facet_degree(const InterfaceSetup& setup, int side = 0);
 
 /// The part of a body's surface that bounds a field whose mesh it cuts, piece by piece. Side 0 is that field.
 class CutBoundary : public IntegrationDomain {
  public:
   /// @param cut the bodies that cut the field's mesh
   /// @param body its number among them
-  /// @param degree to integrate exactly, as the field's cells count it
+  /// @param degree to integrate exactly along a facet
   CutBoundary(Field& field, const FieldCut& cut, int body, int degree);
   [[nodiscard]] int size() const override { return static_cast<int>(pieces_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }

@@ -21,7 +21,7 @@ std::vector<InterfacePart> CutInterface::build(InterfaceSetup& setup) const {
   const MeshFinder meshes = [&](const std::string& name) { return setup.mesh(name); };
   FieldCut& cut = setup.cut(0);
   return {{"", std::make_shared<CutBoundary>(field, cut, cut.add_body(body_.surface({field.mesh(), meshes})),
-                                             setup.degree)}};
+                                             facet_degree(setup))}};
 }
 
 }  // namespace seam

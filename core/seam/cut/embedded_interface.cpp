@@ -103,7 +103,8 @@ std::vector<InterfacePart> EmbeddedInterface::build(InterfaceSetup& setup) const
                                                      displacement, backing_of(parameters_));
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([surface](double) { return surface->now(); });
-  return {{"", std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, setup.degree, surface)}};
+  return {
+      {"", std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, facet_degree(setup), surface)}};
 }
 
 }  // namespace seam

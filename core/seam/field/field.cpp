@@ -29,6 +29,7 @@ Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, 
     }
     places_.push_back({b, blocks_[b].size, unknown.components});
     blocks_[b].size += unknown.components;
+    blocks_[b].components.push_back(unknown.components);
     blocks_[b].time_order.insert(blocks_[b].time_order.end(), unknown.components, unknown.time_order);
   }
   for (Block& block : blocks_) resize(block);

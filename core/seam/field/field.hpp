@@ -64,6 +64,7 @@ struct Block {
   std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
   std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
   std::vector<int> time_order;           ///< per component
+  std::vector<int> components;           ///< of each unknown
 
   /// @param nodes of a cell
   [[nodiscard]] bool knows_any(const int* nodes) const {

@@ -22,7 +22,8 @@ class InterfaceSetup {
   virtual ~InterfaceSetup() = default;
   /// The fields, in the order of Interface::fields().
   std::vector<Field*> sides;
-  int degree = 2;  ///< polynomial degree to integrate exactly
+  int degree = 2;  ///< polynomial degree of products of the unknowns' functions, as their cells count it
+  int extra_degree = 0;  ///< what the couplings ask for beyond it
   /// The bodies that cut the mesh of a side's field; one can be added.
   [[nodiscard]] virtual FieldCut& cut(int side) = 0;
   /// Name of the unknown that displaces the mesh of a side's field, "" for none.
@@ -87,8 +88,8 @@ class Coupling {
     /// The part of the interface on which it is integrated, where that has several.
     std::string part = {};
   };
-  /// How much more than twice the order of the unknowns the interface should integrate exactly.
-  [[nodiscard]] virtual int extra_degree() const { return 0; }
+  /// How many degrees more than products of the unknowns' functions the interface should integrate exactly.
+  [[nodiscard]] virtual int extra_degree(int /*dimension*/) const { return 0; }
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
   /// What becomes of a quantity on the interface: one number, recorded at every step as the time series

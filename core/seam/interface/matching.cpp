@@ -177,7 +177,7 @@ std::vector<InterfacePart> MatchingInterface::build(InterfaceSetup& setup) const
     partner_cells.push_back(partner->cell);
   }
   return {{"", std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells),
-                                                setup.degree)}};
+                                                setup.degree + setup.extra_degree)}};
 }
 
 void register_interfaces(Registry& registry) {

@@ -15,11 +15,11 @@ BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, con
     const Selection selection(*system, std::move(rows));
     const std::size_t size = selection.map()->getGlobalNumElements();
     const bool large = size > small;
-    const bool large_schur = size / block.unknowns_per_node * block.constraints > small;
+    const bool large_schur = size / block.unknowns_per_node * block.constraints() > small;
     const bool pure = block.unknowns_per_node == block.dimension || block.unknowns_per_node == 1;
     Teuchos::RCP<TpetraOperator> inverse;
     if (use.schur && large_schur) {
-      inverse = make_simple(system, a, block, use.fill);
+      inverse = make_simple(system, a, block, use);
     } else if (large && use.multigrid && pure) {
       const auto matrix = blocks.size() == 1 ? system : selection.submatrix(a, selection);
       inverse = make_multigrid(matrix, block);

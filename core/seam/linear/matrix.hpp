@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -53,13 +54,19 @@ struct EquationBlock {
   int first = 0;  ///< local row
   int count = 0;  ///< local rows
   int unknowns_per_node = 1;
-  /// So many last ones of them have no rate, as a pressure beside a velocity: their equations constrain the
-  /// rest.
-  int constraints = 0;
+  /// Components of each unknown, in order: {3, 1} of a velocity and a pressure.
+  std::vector<int> unknowns = {1};
   bool symmetric = true;            ///< nearly, so that smoothers for symmetric matrices serve
   std::vector<double> coordinates;  ///< [local node][dimension], owned and active
   std::vector<std::vector<double>> near_nullspace;  ///< vectors over the block's local rows
   int dimension = 2;
+
+  /// How many scalars, as a pressure, follow vectors: their equations constrain these.
+  [[nodiscard]] int constraints() const {
+    if (unknowns.front() == 1) return 0;
+    const auto last_vector = std::find_if(unknowns.rbegin(), unknowns.rend(), [](int n) { return n > 1; });
+    return static_cast<int>(last_vector - unknowns.rbegin());
+  }
 };
 
 }  // namespace seam

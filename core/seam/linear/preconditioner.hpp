@@ -18,10 +18,11 @@ Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>
                                                 const Teuchos::RCP<const TpetraMap>& rows, int fill);
 
 /// The approximate block factorisation SIMPLE of a block in which the last unknowns of each node have an
-/// equation that constrains the others, as the pressure of an incompressible flow: an incomplete
-/// factorisation for the others, multigrid for the Schur complement.
+/// equation that constrains the others, as the pressure of an incompressible flow. Multigrid for the Schur
+/// complement; an incomplete factorisation for a velocity, and where a displacement comes before it, as in a
+/// porous body, multigrid for that, one after the other.
 Teuchos::RCP<TpetraOperator> make_simple(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
-                                         const EquationBlock& block, int fill);
+                                         const EquationBlock& block, const FieldInverses& use);
 
 /// Solves the blocks of a system one after the other, each with the residual that the ones before have left:
 /// forward block Gauss-Seidel. Blocks of one unknown a node, or of a displacement, are left to multigrid,

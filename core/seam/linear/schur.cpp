@@ -8,13 +8,15 @@ namespace seam {
 namespace {
 
 /// The approximate factorisation SIMPLE of [F G; D C], with H = -diag(F)^-1 G and S = C + D H:
-/// u = F^-1 f, p = S^-1 (g - D u), u += H p.
+/// u = F^-1 f, p = S^-1 (g - D u), u += H p. For several vectors F^-1 is a forward block Gauss-Seidel step.
 class Simple final : public TpetraOperator {
  public:
-  Simple(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a, const EquationBlock& block, int fill)
+  Simple(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a, const EquationBlock& block,
+         const FieldInverses& use)
       : first_(block.first),
-        free_(*system, rows(block, false)),
-        constrained_(*system, rows(block, true)),
+        free_(*system, rows(block, 0, block.unknowns_per_node - block.constraints())),
+        constrained_(*system,
+                     rows(block, block.unknowns_per_node - block.constraints(), block.unknowns_per_node)),
         map_(Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), block.count,
                                         0, system->getComm()))) {
     Tpetra::Vector<double, int, long long> scale(free_.map());
@@ -23,8 +25,8 @@ class Simple final : public TpetraOperator {
       Tpetra::Vector<double, int, long long> diagonal(own->getRowMap());
       own->getLocalDiagCopy(diagonal);
       std::ranges::copy(diagonal.getData(), scale.getDataNonConst().begin());
-      inverse_ = make_incomplete_lu(own, free_.map(), fill);
     }
+    add_vectors(system, a, block, use);
     divergence_ = constrained_.submatrix(a, free_);
     gradient_ = free_.submatrix(a, constrained_);
     scale.reciprocal(scale);
@@ -34,20 +36,15 @@ class Simple final : public TpetraOperator {
     Tpetra::MatrixMatrix::Multiply(*divergence_, false, *gradient_, false, *product);
     const auto c = constrained_.submatrix(a, constrained_);
     const auto schur = Tpetra::MatrixMatrix::add(1.0, false, *c, 1.0, false, *product);
-    EquationBlock scalar;
-    scalar.count = static_cast<int>(constrained_.rows().size());
-    scalar.dimension = block.dimension;
-    scalar.symmetric = false;
-    scalar.coordinates = block.coordinates;
-    schur_inverse_ = make_multigrid(schur, scalar);
+    schur_inverse_ = make_multigrid(schur, part(block, block.constraints()));
   }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override { return map_; }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return map_; }
   void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double, double) const override {
-    const TpetraVector f = free_.gather(x, first_);
     TpetraVector g = constrained_.gather(x, first_);
-    TpetraVector u(f.getMap(), f.getNumVectors()), p(g.getMap(), g.getNumVectors());
-    inverse_->apply(f, u);
+    TpetraVector p(g.getMap(), g.getNumVectors());
+    solve_vectors(x, y);
+    TpetraVector u = free_.gather(y, first_);
     divergence_->apply(u, g, Teuchos::NO_TRANS, -1.0, 1.0);
     schur_inverse_->apply(g, p);
     gradient_->apply(p, u, Teuchos::NO_TRANS, 1.0, 1.0);
@@ -56,25 +53,66 @@ class Simple final : public TpetraOperator {
   }
 
  private:
-  static std::vector<int> rows(const EquationBlock& block, bool constrained) {
+  struct Vector {
+    Selection rows;
+    Teuchos::RCP<TpetraOperator> inverse;
+    std::vector<Teuchos::RCP<TpetraMatrix>> before;  ///< what couples it to each of those in front
+  };
+  /// Rows of the components [from, to) of all nodes.
+  static std::vector<int> rows(const EquationBlock& block, int from, int to) {
     std::vector<int> result;
-    const int n = block.unknowns_per_node;
     for (int r = 0; r < block.count; ++r)
-      if ((r % n >= n - block.constraints) == constrained) result.push_back(block.first + r);
+      if (const int c = r % block.unknowns_per_node; c >= from && c < to) result.push_back(block.first + r);
     return result;
+  }
+  void add_vectors(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a, const EquationBlock& block,
+                   const FieldInverses& use) {
+    const int end = block.unknowns_per_node - block.constraints();
+    for (int from = 0, k = 0; from < end; from += block.unknowns[k++]) {
+      const int size = block.unknowns[k];
+      Vector vector{Selection(*system, rows(block, from, from + size)), {}, {}};
+      if (from + size < end && size == block.dimension)
+        vector.inverse = make_multigrid(vector.rows.submatrix(a, vector.rows), part(block, size));
+      else
+        vector.inverse = make_incomplete_lu(vector.rows.own_submatrix(a), vector.rows.map(), use.fill);
+      for (const Vector& other : vectors_) vector.before.push_back(vector.rows.submatrix(a, other.rows));
+      vectors_.push_back(std::move(vector));
+    }
+  }
+  /// The block as if each node had `size` unknowns only.
+  static EquationBlock part(const EquationBlock& block, int size) {
+    EquationBlock result;
+    result.count = block.count / block.unknowns_per_node * size;
+    result.unknowns_per_node = size;
+    result.dimension = block.dimension;
+    result.symmetric = false;
+    result.coordinates = block.coordinates;
+    return result;
+  }
+  void solve_vectors(const TpetraVector& x, TpetraVector& y) const {
+    std::vector<TpetraVector> solution;
+    for (const Vector& vector : vectors_) {
+      TpetraVector f = vector.rows.gather(x, first_);
+      for (std::size_t k = 0; k < solution.size(); ++k)
+        vector.before[k]->apply(solution[k], f, Teuchos::NO_TRANS, -1.0, 1.0);
+      solution.emplace_back(f.getMap(), f.getNumVectors());
+      vector.inverse->apply(f, solution.back());
+      vector.rows.scatter(solution.back(), y, first_);
+    }
   }
   int first_;  ///< of the block in the system
   Selection free_, constrained_;
   Teuchos::RCP<const TpetraMap> map_;
   Teuchos::RCP<TpetraMatrix> divergence_, gradient_;  ///< gradient_: H
-  Teuchos::RCP<TpetraOperator> inverse_, schur_inverse_;
+  Teuchos::RCP<TpetraOperator> schur_inverse_;
+  std::vector<Vector> vectors_;
 };
 
 }  // namespace
 
 Teuchos::RCP<TpetraOperator> make_simple(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
-                                         const EquationBlock& block, int fill) {
-  return Teuchos::rcp(new Simple(system, a, block, fill));
+                                         const EquationBlock& block, const FieldInverses& use) {
+  return Teuchos::rcp(new Simple(system, a, block, use));
 }
 
 }  // namespace seam

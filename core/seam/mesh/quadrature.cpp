@@ -71,6 +71,13 @@ Quadrature triangle_rule(int degree) {
     const double weight_root = std::sqrt(213125.0 - 53320.0 * std::sqrt(10.0));
     add_vertex_orbit(rule, (8 - std::sqrt(10.0) + root) / 18, (620 + weight_root) / 7440);
     add_vertex_orbit(rule, (8 - std::sqrt(10.0) - root) / 18, (620 - weight_root) / 7440);
+  } else if (degree == 5) {
+    // Radon (1948).
+    const double root = std::sqrt(15.0);
+    rule.points = {1.0 / 3, 1.0 / 3};
+    rule.weights = {9.0 / 80};
+    add_vertex_orbit(rule, (6 - root) / 21, (155 - root) / 2400);
+    add_vertex_orbit(rule, (6 + root) / 21, (155 + root) / 2400);
   } else {
     return collapsed_rule(2, degree);
   }

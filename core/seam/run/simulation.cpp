@@ -87,15 +87,15 @@ std::vector<double> Simulation::cell_costs(const std::string& mesh) const {
 /// What an interface may ask of the scene while it is built.
 class Simulation::Setup final : public InterfaceSetup {
  public:
-  Setup(Simulation& simulation, const std::vector<std::string>& names, int extra_degree)
-      : simulation_(simulation) {
+  Setup(Simulation& simulation, const std::vector<std::string>& names, int extra) : simulation_(simulation) {
     int order = 1;
     for (const std::string& name : names) {
       entries_.push_back(&simulation.problem_.field(name));
       sides.push_back(entries_.back()->field.get());
       order = std::max(order, sides.back()->order());
     }
-    degree = 2 * order + extra_degree;
+    degree = 2 * order;
+    extra_degree = extra;
   }
   FieldCut& cut(int side) override {
     if (!displacement(side).empty())
@@ -166,11 +166,12 @@ void Simulation::build_couplings(const Registry& registry) {
     }
   };
   std::vector<std::pair<Parameters, std::unique_ptr<Coupling>>> couplings;
+  const int dimension = static_cast<int>(scene_.root.integer("dimension"));
   std::map<std::string, int> extra_degree;  // by interface
   for (const Parameters& parameters : scene_.root.list("coupling")) {
     couplings.emplace_back(parameters, registry.create<Coupling>("coupling", parameters));
     int& most = extra_degree[parameters.text("on")];
-    most = std::max(most, couplings.back().second->extra_degree());
+    most = std::max(most, couplings.back().second->extra_degree(dimension));
   }
   std::map<std::string, Built> interfaces;
   for (const auto& [name, interface] : interfaces_) {
