@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <TpetraExt_MatrixMatrix.hpp>
-#include <algorithm>
 
 #include "seam/linear/preconditioner.hpp"
 
@@ -19,19 +18,15 @@ class Simple final : public TpetraOperator {
                      rows(block, block.unknowns_per_node - block.constraints(), block.unknowns_per_node)),
         map_(Teuchos::rcp(new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), block.count,
                                         0, system->getComm()))) {
-    Tpetra::Vector<double, int, long long> scale(free_.map());
-    {
-      const auto own = free_.own_submatrix(a);
-      Tpetra::Vector<double, int, long long> diagonal(own->getRowMap());
-      own->getLocalDiagCopy(diagonal);
-      std::ranges::copy(diagonal.getData(), scale.getDataNonConst().begin());
-    }
     add_vectors(system, a, block, use);
+    Tpetra::Vector<double, int, long long> diagonal(system->getRowMap());
+    system->getLocalDiagCopy(diagonal);
+    TpetraVector scale = free_.gather(diagonal);
     divergence_ = constrained_.submatrix(a, free_);
     gradient_ = free_.submatrix(a, constrained_);
     scale.reciprocal(scale);
     scale.scale(-1);
-    gradient_->leftScale(scale);
+    gradient_->leftScale(*scale.getVector(0));
     Teuchos::RCP<TpetraMatrix> product = Teuchos::rcp(new TpetraMatrix(constrained_.map(), 0));
     Tpetra::MatrixMatrix::Multiply(*divergence_, false, *gradient_, false, *product);
     const auto c = constrained_.submatrix(a, constrained_);
