@@ -89,18 +89,28 @@ stage_nightly() {
   verify_scenes "${scenes[@]}"
 }
 
-# verify_scenes SCENE...: runs scenes and compares them with their checks.
+# verify_scenes SCENE...: runs scenes and compares them with their checks, each in a process and a folder of its own, as
+# many at once as there are cores.
 verify_scenes() {
-  local log=$seam_build/scenes.log scenes=("$@")
-  mkdir -p "$seam_build/scenes"
-  (cd "$seam_build/scenes" && "$seam_build/bin/seam" verify "${scenes[@]}" --quiet) >"$log" 2>&1
-  local code=$? numbers
-  grep -E '^(ok  |FAIL) ' "$log" | sed "s|$seam_root/||"
-  numbers=$(sed -nE 's/^([0-9]+) passed, ([0-9]+) failed$/\1 \2/p' "$log")
-  # Without its last line the command broke off.
-  if [ $code != 0 ] || [ -z "$numbers" ]; then tail -n 40 "$log"; fi
-  # shellcheck disable=SC2086  # two numbers
-  count ${numbers:-0 1}
+  local folder=$seam_build/scenes scene log
+  rm -rf "$folder"
+  # shellcheck disable=SC2016  # for the shell of each process
+  printf '%s\n' "$@" | sed "s|^$seam_root/configs/||; s|\.yaml$||" | xargs -P "$seam_jobs" -I '{}' bash -c \
+    'mkdir -p "$1/$2" && cd "$1/$2" && "$0/bin/seam" verify "$3/configs/$2.yaml" --quiet >log 2>&1' \
+    "$seam_build" "$folder" '{}' "$seam_root"
+  for scene in "$@"; do
+    scene=${scene#"$seam_root/configs/"}
+    log=$folder/${scene%.yaml}/log
+    # Without this line the command broke off.
+    if grep -qx '1 passed, 0 failed' "$log"; then
+      grep '^ok .*yaml' "$log" | sed "s|$seam_root/||"
+      count 1 0
+    else
+      echo "FAIL configs/$scene"
+      tail -n 40 "$log"
+      count 0 1
+    fi
+  done
 }
 
 stage_sanitize() {

@@ -6,7 +6,7 @@
 namespace seam {
 BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
                                    const std::vector<EquationBlock>& blocks, const FieldInverses& use)
-    : system_(system) {
+    : system_(system), map_(system->getDomainMap()) {
   // Smaller matrices (a rigid body's motion) are left to the factorisation: multigrid would have one level.
   constexpr std::size_t small = 800;
   for (const EquationBlock& block : blocks) {

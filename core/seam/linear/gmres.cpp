@@ -15,7 +15,6 @@ int gmres(const Teuchos::RCP<TpetraMatrix>& matrix, const Teuchos::RCP<TpetraOpe
   problem->setRightPrec(preconditioner);
   problem->setProblem();
   auto parameters = Teuchos::rcp(new Teuchos::ParameterList);
-  parameters->set("Flexible Gmres", true);
   parameters->set("Convergence Tolerance", options.tolerance);
   parameters->set("Maximum Iterations", options.maximum_iterations);
   parameters->set("Num Blocks", std::min(options.restart, options.maximum_iterations));

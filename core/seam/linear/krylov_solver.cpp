@@ -30,7 +30,7 @@ KrylovSolver::~KrylovSolver() = default;
 
 Schema KrylovSolver::schema() {
   Schema s(
-      "Flexible GMRES with algebraic multigrid or incomplete factorisation per field block, for large "
+      "GMRES with algebraic multigrid or incomplete factorisation per field block, for large "
       "systems.");
   s.number("tolerance", "Relative residual to reach").otherwise("1e-9").above(0).below(1);
   s.integer("maximum_iterations", "Iterations after which the solve has failed")
@@ -73,6 +73,8 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
 
   report.iterations =
       gmres(matrix, preconditioner_->apply, b, x, {tolerance_, maximum_iterations_, restart_});
+  // The view would keep the matrix in memory while the next one is built.
+  preconditioner_->apply->follow(Teuchos::null);
   preconditioner_->last_iterations = report.iterations;
   if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);
 }

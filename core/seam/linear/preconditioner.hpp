@@ -32,12 +32,11 @@ class BlockGaussSeidel final : public TpetraOperator {
   /// @param system a view of `a`
   BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
                    const std::vector<EquationBlock>& blocks, const FieldInverses& use);
-  /// From now on residuals are those of another matrix with the same unknowns; the blocks' inverses stay.
+  /// From now on residuals are those of another matrix with the same unknowns, or there is none for now; the
+  /// blocks' inverses stay.
   void follow(const Teuchos::RCP<TpetraMatrix>& system) { system_ = system; }
-  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override {
-    return system_->getDomainMap();
-  }
-  [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return system_->getRangeMap(); }
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override { return map_; }
+  [[nodiscard]] Teuchos::RCP<const TpetraMap> getRangeMap() const override { return map_; }
   void apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
              double beta) const override;
 
@@ -47,6 +46,7 @@ class BlockGaussSeidel final : public TpetraOperator {
     Teuchos::RCP<TpetraOperator> inverse;
   };
   Teuchos::RCP<TpetraMatrix> system_;
+  Teuchos::RCP<const TpetraMap> map_;
   std::vector<Part> parts_;
 };
 
