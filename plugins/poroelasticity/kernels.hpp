@@ -293,4 +293,35 @@ struct InteriorPenalty {
   }
 };
 
+/// (C grad0 dp / J, tau R) with the residual of the momentum of the fluid in the pores, R = C grad0 p + drag
+/// + rho_F (J dv/dt - grad v du/dt - J b), and tau = factor phi_0/(mu phi_0/K + rho_F/(theta dt)): for equal
+/// orders, without a share of neighbours' neighbours in the matrix. With factor 1/2 and without inertia this
+/// is the stabilisation of Darcy's flow by Masud and Hughes (2002): it needs no size of cells.
+struct ResidualStabilisation {
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Rate<v>, Gradient<v>, Value<p>, Gradient<p>>;
+  using Tests = Slots<Gradient<p>>;
+  PoreFlow flow;
+  std::vector<Expression> body_force;  ///< on the fluid, m/s^2; empty for none
+  double factor;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T& j = d.invariant[2];
+    const T m = flow.porosity.fluid_volume(j, s.value(p{}));
+    Vec<dim, T> residual = d.cofactor * s.gradient(p{}) +
+                           flow.template drag<dim, T>(d, m, Vec<dim, T>(s.value(v{}) - s.rate(u{})));
+    if (flow.density > 0) {
+      Vec<dim, T> rate = s.rate(v{});
+      for (int i = 0; i < dim && !body_force.empty(); ++i)
+        rate[i] -= body_force[i](x.position.c.data(), dim, x.time);
+      residual +=
+          flow.density * (j * rate - s.gradient(v{}) * (transpose(d.cofactor) * s.rate(u{})));
+    }
+    const T resistance = flow.scale(dim).resistance / flow.template resistance<dim>().opened(m);
+    const double inertia = x.step > 0 ? flow.density / (x.theta * x.step) : 0.0;
+    const T tau = factor * flow.porosity.initial / (resistance + inertia);
+    r.gradient(p{}) += (tau / j) * (transpose(d.cofactor) * residual);
+  }
+};
+
 }  // namespace seam::poro

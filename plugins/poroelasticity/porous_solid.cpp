@@ -115,6 +115,18 @@ void PorousSolid::add_balances(FieldSetup& setup, const Region& region) const {
 
 void PorousSolid::add_stabilisation(FieldSetup& setup, const Region& region) const {
   const Parameters& factors = parameters_.object("stabilisation");
+  if (factors.text("method") == "residual") {
+    const bool has_force = parameters_.has("fluid_body_force");
+    if (has_force && nodal_forces_)
+      throw Error(factors.where("method"),
+                  "the residual needs `fluid_body_force` at every point; leave out "
+                  "`interpolate_body_force`, or take `method: interior`");
+    const auto force =
+        has_force ? parameters_.vector_expression("fluid_body_force") : std::vector<Expression>{};
+    setup.add_cell_term(make_term(ResidualStabilisation{region.flow, force, factors.number("momentum")}),
+                        all_unknowns);
+    return;
+  }
   setup.add_interior_face_term(
       make_term(InteriorPenalty{region.flow.scale(setup.dimension()), factors.number("pressure"),
                                 factors.number("divergence")}),

@@ -86,10 +86,18 @@ Schema PorousSolid::schema() {
            "for a scheme of second order over two steps",
            {"conservative", "chain_rule"})
       .otherwise("conservative");
-  Schema stabilisation("Continuous interior penalty of order 1, thesis (2.123), (2.124).");
-  stabilisation.number("pressure", "gamma_p").otherwise("0.05").above(0);
-  stabilisation.number("divergence", "gamma_div").otherwise("5e-5").at_least(0);
-  s.object("stabilisation", "Factors of the interior penalty", stabilisation).otherwise("{}");
+  Schema stabilisation("Of order 1.");
+  stabilisation
+      .choice("method",
+              "`interior`: a penalty on jumps of gradients across faces, thesis (2.123), (2.124); `residual`: "
+              "with the momentum balance in each cell, which leaves a narrower matrix",
+              {"interior", "residual"})
+      .otherwise("interior");
+  stabilisation.number("pressure", "gamma_p of `interior`").otherwise("0.05").above(0);
+  stabilisation.number("divergence", "gamma_div of `interior`").otherwise("5e-5").at_least(0);
+  stabilisation.number("momentum", "Factor of `residual`").otherwise("0.5").above(0);
+  s.object("stabilisation", "What keeps velocity and pressure of order 1 stable", stabilisation)
+      .otherwise("{}");
   s.vector_expression("body_force", "On the mixture, per mass of the skeleton").unit("m/s^2").optional();
   s.vector_expression("fluid_body_force", "On the fluid in the pores, per mass").unit("m/s^2").optional();
   s.expression(

@@ -1,14 +1,16 @@
 // The parts of an elastic pump that deform: two walls of a chamber, arcs about (0.75, -+0.508), and two pairs of flaps
-// whose roots lie in a rigid frame beyond y = -+0.1.
+// whose roots lie in a rigid frame beyond y = -+duct.
 DefineConstant[
   h = 0.0125,       // size of the cells
   thick = 0.085,    // of a chamber's wall
   flap = 0.02,      // thickness of a flap
   clear = 0.0128,   // distance of two tips
+  duct = 0.065,     // half of the height of the channels
+  cell = 0.68,      // edges of the cells over h, away from transfinite curves
   root = 0.03       // length of a flap inside the frame
 ];
-Mesh.MeshSizeMin = 0.7*h;
-Mesh.MeshSizeMax = 0.7*h;
+Mesh.MeshSizeMin = cell*h;
+Mesh.MeshSizeMax = cell*h;
 inner = 0.678;
 outer = inner + thick;
 half = Asin(0.3/inner);
@@ -39,17 +41,17 @@ For k In {0:3}
   s = (k % 2 == 0) ? 1 : -1;
   x = (k < 2) ? 0.38 : 1.27;
   y = clear/2 + flap/2;
-  dx = -0.1*(0.1 - y)/0.086;
-  dy = y - 0.1;
+  dx = -0.1*(duct - y)/(duct - 0.014);
+  dy = y - duct;
   length = Sqrt(dx*dx + dy*dy);
   tx = dx/length;
   ty = dy/length;
   p = newp;
-  Point(p) = {x - root*tx + flap/2*ty, s*(0.1 - root*ty - flap/2*tx), 0};
+  Point(p) = {x - root*tx + flap/2*ty, s*(duct - root*ty - flap/2*tx), 0};
   Point(p + 1) = {x + dx + flap/2*ty, s*(y - flap/2*tx), 0};
   Point(p + 2) = {x + dx + flap/2*tx, s*(y + flap/2*ty), 0};
   Point(p + 3) = {x + dx - flap/2*ty, s*(y + flap/2*tx), 0};
-  Point(p + 4) = {x - root*tx - flap/2*ty, s*(0.1 - root*ty + flap/2*tx), 0};
+  Point(p + 4) = {x - root*tx - flap/2*ty, s*(duct - root*ty + flap/2*tx), 0};
   Point(p + 5) = {x + dx, s*y, 0};
   l = newl;
   Line(l) = {p, p + 1};

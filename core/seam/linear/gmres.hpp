@@ -11,7 +11,7 @@ struct GmresOptions {
   int restart = 150;  ///< size of the Krylov space
 };
 
-/// Flexible GMRES with a preconditioner on the right (Belos). Collective.
+/// GMRES with a preconditioner on the right (Belos). Collective.
 /// @param x [owned row], start value and result
 /// @return iterations; the caller checks the residual
 int gmres(const Teuchos::RCP<TpetraMatrix>& matrix, const Teuchos::RCP<TpetraOperator>& preconditioner,

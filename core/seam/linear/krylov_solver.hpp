@@ -17,7 +17,7 @@ struct FieldInverses {
   int fill;       ///< levels of fill-in of incomplete factorisations
 };
 
-/// Flexible GMRES (Belos), preconditioned by block Gauss-Seidel over the blocks of the fields; each block by
+/// GMRES (Belos), preconditioned by block Gauss-Seidel over the blocks of the fields; each block by
 /// smoothed aggregation (MueLu, with the rigid body modes as near-null space where the block is a vector) or
 /// by incomplete factorisation (Ifpack2), those of a flow also by SIMPLE. The preconditioner is kept while
 /// iteration counts stay low.
