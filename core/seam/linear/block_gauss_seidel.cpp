@@ -7,7 +7,7 @@ namespace seam {
 BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
                                    const std::vector<EquationBlock>& blocks, const FieldInverses& use)
     : system_(system), map_(system->getDomainMap()) {
-  // Smaller matrices (a rigid body's motion) are left to the factorisation: multigrid would have one level.
+  // Smaller matrices (a rigid body's motion) are left to the factorisation.
   constexpr std::size_t small = 800;
   for (const EquationBlock& block : blocks) {
     std::vector<int> rows(block.count);
@@ -15,10 +15,9 @@ BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, con
     const Selection selection(*system, std::move(rows));
     const std::size_t size = selection.map()->getGlobalNumElements();
     const bool large = size > small;
-    const bool large_schur = size / block.unknowns_per_node * block.constraints() > small;
     const bool pure = block.unknowns_per_node == block.dimension || block.unknowns_per_node == 1;
     Teuchos::RCP<TpetraOperator> inverse;
-    if (use.schur && large_schur) {
+    if (use.schur && large && block.constraints() > 0) {
       inverse = make_simple(system, a, block, use);
     } else if (large && use.multigrid && pure) {
       const auto matrix = blocks.size() == 1 ? system : selection.submatrix(a, selection);
