@@ -314,8 +314,7 @@ struct ResidualStabilisation {
       Vec<dim, T> rate = s.rate(v{});
       for (int i = 0; i < dim && !body_force.empty(); ++i)
         rate[i] -= body_force[i](x.position.c.data(), dim, x.time);
-      residual +=
-          flow.density * (j * rate - s.gradient(v{}) * (transpose(d.cofactor) * s.rate(u{})));
+      residual += flow.density * (j * rate - s.gradient(v{}) * (transpose(d.cofactor) * s.rate(u{})));
     }
     const T resistance = flow.scale(dim).resistance / flow.template resistance<dim>().opened(m);
     const double inertia = x.step > 0 ? flow.density / (x.theta * x.step) : 0.0;

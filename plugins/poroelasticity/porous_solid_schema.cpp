@@ -88,10 +88,11 @@ Schema PorousSolid::schema() {
       .otherwise("conservative");
   Schema stabilisation("Of order 1.");
   stabilisation
-      .choice("method",
-              "`interior`: a penalty on jumps of gradients across faces, thesis (2.123), (2.124); `residual`: "
-              "with the momentum balance in each cell, which leaves a narrower matrix",
-              {"interior", "residual"})
+      .choice(
+          "method",
+          "`interior`: a penalty on jumps of gradients across faces, thesis (2.123), (2.124); `residual`: "
+          "with the momentum balance in each cell, which leaves a narrower matrix",
+          {"interior", "residual"})
       .otherwise("interior");
   stabilisation.number("pressure", "gamma_p of `interior`").otherwise("0.05").above(0);
   stabilisation.number("divergence", "gamma_div of `interior`").otherwise("5e-5").at_least(0);
