@@ -54,8 +54,8 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
     smoother.set("relaxation: sweeps", 2);
   }
   parameters.set("aggregation: type", "uncoupled");
-  // On stretched cells aggregates must follow the strong couplings. What is strong is told by distances: entries of
-  // elasticity and of products of matrices do not tell.
+  // On stretched cells aggregates must follow the strong couplings. What is strong is told by distances:
+  // entries of elasticity and of products of matrices do not tell.
   parameters.set("aggregation: drop scheme", "distance laplacian");
   parameters.set("aggregation: drop tol", 0.02);
   if (matrix->getComm()->getSize() > 1) {
