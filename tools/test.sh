@@ -94,9 +94,10 @@ stage_nightly() {
 verify_scenes() {
   local folder=$seam_build/scenes scene log
   rm -rf "$folder"
+  # After a process that a signal has ended xargs would start no more: hence `true`.
   # shellcheck disable=SC2016  # for the shell of each process
   printf '%s\n' "$@" | sed "s|^$seam_root/configs/||; s|\.yaml$||" | xargs -P "$seam_jobs" -I '{}' bash -c \
-    'mkdir -p "$1/$2" && cd "$1/$2" && "$0/bin/seam" verify "$3/configs/$2.yaml" --quiet >log 2>&1' \
+    'mkdir -p "$1/$2" && cd "$1/$2" && "$0/bin/seam" verify "$3/configs/$2.yaml" --quiet >log 2>&1; true' \
     "$seam_build" "$folder" '{}' "$seam_root"
   for scene in "$@"; do
     scene=${scene#"$seam_root/configs/"}

@@ -2,8 +2,8 @@
 // whose roots lie in a rigid frame beyond y = -+duct.
 DefineConstant[
   h = 0.0125,       // size of the cells
-  thick = 0.085,    // of a chamber's wall
-  flap = 0.02,      // thickness of a flap
+  thick = 0.115,    // of a chamber's wall
+  flap = 0.028,     // thickness of a flap
   clear = 0.0128,   // distance of two tips
   duct = 0.065,     // half of the height of the channels
   cell = 0.68,      // edges of the cells over h, away from transfinite curves
