@@ -3,15 +3,16 @@
 
 #include "contact_kernels.hpp"
 #include "coupling_sides.hpp"
+#include "seam/interface/adjoint.hpp"
 #include "seam/interface/interface.hpp"
 #include "trace_eigenvalue.hpp"
 
 namespace seam::fsci {
 namespace {
 
-class Contact final : public Coupling {
+class ContactCoupling final : public Coupling {
  public:
-  explicit Contact(const Parameters& parameters) : parameters_(parameters) {
+  explicit ContactCoupling(const Parameters& parameters) : parameters_(parameters) {
     if (!both() && parameters.given("share"))
       throw Error(parameters.where("share"), "`share` belongs to `acts_on: both`");
   }
@@ -33,30 +34,52 @@ class Contact final : public Coupling {
         .above(0)
         .at_most(1);
     declare_stress(s);
+    s.choice(
+         "adjoint",
+         "Adjoint term: with `symmetric` (xi = -1) contact has an energy, which the scheme with theta 1/2 "
+         "keeps; needs a penalty above 1. `skew` (xi = 1) is stable for every penalty",
+         {"none", "symmetric", "skew"})
+        .otherwise("none");
+    s.choice(
+         "in_time",
+         "For theta < 1. `plain`: the scheme takes its means of the traction at both ends of a step, energy "
+         "may grow where bodies part. `hybrid`: where they part, the mean traction is kept from pulling "
+         "instead, and energy does not grow (Chouly, Hild and Renard); for obstacles at rest",
+         {"plain", "hybrid"})
+        .otherwise("plain");
     declare_scaling(s, "once");
     return s;
   }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    const double share = parameters_.number("share");
-    if (sides.fields.size() == 1)
-      return {{make_term(ContactOfOne{one_body(sides)}), operands(sides), scales(sides)}};
-    return {{make_term(ContactOfTwo{two_bodies(sides), both() ? share : 1, both() ? share : 0}),
-             operands(sides), scales(sides)}};
+    return sides.fields.size() == 1 ? terms_between<1>(sides) : terms_between<2>(sides);
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
-    return sides.fields.size() == 1 ? measures_of(one_body(sides), sides)
-                                    : measures_of(two_bodies(sides), sides);
+    return sides.fields.size() == 1 ? measures_between<1>(sides) : measures_between<2>(sides);
   }
 
  private:
   [[nodiscard]] bool both() const { return parameters_.text("acts_on") == "both"; }
-  [[nodiscard]] OneBody one_body(const CouplingSides& sides) const {
-    return {law_of(sides, 0), parameters_.number("penalty")};
+  template <int count>
+  [[nodiscard]] Bodies<count> bodies(const CouplingSides& sides) const {
+    const double penalty = parameters_.number("penalty");
+    if (count == 2) return {body_pull(parameters_, sides, 0, 1, penalty)};
+    return {{law_of(sides, 0), nullptr, penalty, Whose::own}};
   }
-  [[nodiscard]] TwoBodies two_bodies(const CouplingSides& sides) const {
-    return {body_pull(parameters_, sides, 0, 1, parameters_.number("penalty"))};
+  template <int count>
+  [[nodiscard]] std::vector<SideTerm> terms_between(const CouplingSides& sides) const {
+    const bool hybrid = parameters_.text("in_time") == "hybrid";
+    const bool adjoint = parameters_.text("adjoint") != "none";
+    if (hybrid) return adjoint ? of_kind<count, true, true>(sides) : of_kind<count, true, false>(sides);
+    return adjoint ? of_kind<count, false, true>(sides) : of_kind<count, false, false>(sides);
+  }
+  template <int count, bool hybrid, bool adjoint>
+  [[nodiscard]] std::vector<SideTerm> of_kind(const CouplingSides& sides) const {
+    const double share = count == 2 && both() ? parameters_.number("share") : 1;
+    return {{make_term(Contact<count, hybrid, adjoint>{bodies<count>(sides), share, both() ? share : 0,
+                                                       adjoint_of(parameters_)}),
+             operands(sides), scales(sides)}};
   }
   [[nodiscard]] static std::vector<Operand> operands(const CouplingSides& sides) {
     if (sides.fields.size() == 1) return {{0, "displacement"}};
@@ -68,12 +91,13 @@ class Contact final : public Coupling {
       result.push_back({side, scale_of(parameters_, sides, side)});
     return result;
   }
-  template <class Bodies>
-  [[nodiscard]] std::vector<Measure> measures_of(const Bodies& bodies, const CouplingSides& sides) const {
-    using State = ContactState<Bodies>;
+  template <int count>
+  [[nodiscard]] std::vector<Measure> measures_between(const CouplingSides& sides) const {
+    using State = ContactState<count>;
     using Number = typename State::Number;
     const auto measure = [&](const std::string& name, Number number, MeasureOf of) {
-      return Measure{name, {{make_quantity(State{bodies, number}), operands(sides), scales(sides)}}, of};
+      const State state{bodies<count>(sides), number};
+      return Measure{name, {{make_quantity(state), operands(sides), scales(sides)}}, of};
     };
     return {measure("gap", Number::gap, MeasureOf::least),
             measure("overlap", Number::overlap, MeasureOf::norm),
@@ -86,8 +110,9 @@ class Contact final : public Coupling {
 }  // namespace
 
 void declare_contact(Registry& registry) {
-  registry.add<Coupling>("coupling", "contact", Contact::schema(),
-                         [](const Parameters& p, const Registry&) { return std::make_unique<Contact>(p); });
+  registry.add<Coupling>(
+      "coupling", "contact", ContactCoupling::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<ContactCoupling>(p); });
 }
 
 }  // namespace seam::fsci

@@ -222,6 +222,7 @@ void Simulation::start(const RunOptions& options) {
     if (communicator_.rank() == 0) fmt::print(stderr, "warning: {}; an older one is used\n", warning);
   const bool resumed = !point.empty();
   if (stepper_.two_steps()) problem_.keep_mean_rates();
+  fresh_rates_ = !stepper_.is_static() && problem_.needs_fresh_rates(stepper_.theta());
   if (resumed) {
     state_ = read_restart(point, problem_);
     problem_.update_spaces(time_point(state_.time, 0, stepper_.theta()));
@@ -315,6 +316,7 @@ TimePoint Simulation::step_to(double until) const {
 
 /// One step to the time `until`; leaves everything as it was when it fails.
 bool Simulation::try_step(double until) {
+  if (fresh_rates_) newton_->solve_initial_rates(state_.time);
   const Problem::Snapshot before = problem_.snapshot();
   const TimePoint at = step_to(until);
   problem_.begin_step(at);

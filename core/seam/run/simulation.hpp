@@ -100,6 +100,7 @@ class Simulation {
   std::string failure_;    ///< why the run ended early, "" if it did not
   double last_time_error_ = 0;
   long rejected_steps_ = 0;
+  bool fresh_rates_ = false;  ///< rates follow from the balance at the start of each step
 };
 
 /// Reads and distributes the meshes a scene names. Exposed for `seam check`.

@@ -152,6 +152,22 @@ bool Problem::constrains_rates() const {
   return false;
 }
 
+bool Problem::needs_fresh_rates(double theta) const {
+  if (theta >= 1) return false;
+  const bool wanted = std::ranges::any_of(domains_, [](const DomainTerms& domain) {
+    return std::ranges::any_of(domain.second, [&](const BoundTerm& bound) {
+      return bound.term->signature(domain.first->fields().front()->mesh().dimension()).fresh_rates;
+    });
+  });
+  if (wanted && constrains_rates())
+    throw Error(
+        "a coupling weighs the tractions at both ends of a step (`in_time: hybrid`), which needs rates that "
+        "the "
+        "balance at an instant determines; those of an incompressible fluid are not. Take `plain`, or theta "
+        "1");
+  return wanted;
+}
+
 double Problem::smallest_cut_cell() const {
   double smallest = std::numeric_limits<double>::infinity();
   for (const FieldEntry& entry : fields_)

@@ -154,6 +154,9 @@ class Problem {
   /// incompressible flow. Initial rates must then satisfy the constraint, too, which the balance at the start
   /// does not say: the first step is taken with theta = 1 instead and brings them.
   [[nodiscard]] bool constrains_rates() const;
+  /// True when a term wants the rates at the start of each step to follow from the balance there.
+  /// @throws Error when that cannot be, see constrains_rates()
+  [[nodiscard]] bool needs_fresh_rates(double theta) const;
   /// Adds an increment of the highest rates (of the value, where an unknown has none): the solution of the
   /// system assembled with TimePoint::initial_rates.
   void add_initial_rates(const std::vector<double>& increment);

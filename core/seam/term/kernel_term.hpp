@@ -35,7 +35,8 @@
 /// left out.
 ///
 /// Where the points depend on two bodies, as on both sides of a gap, the kernel says so by
-/// `static constexpr int movers = 2`.
+/// `static constexpr int movers = 2`. One for which the state at the start of a step is more than a part of
+/// rates asks for rates that fit to it by `static constexpr bool fresh_rates = true`.
 ///
 /// The weak form is the sum over all test functions of coefficient times test function (or its gradient),
 /// integrated: here (grad dc, D grad c). The tangent follows by automatic differentiation.
@@ -320,7 +321,10 @@ class KernelTerm final : public Term {
       : kernel_(std::move(kernel)),
         extra_degree_(extra_degree),
         signatures_{detail::signature_of(Reads{}, Tests{}, 2), detail::signature_of(Reads{}, Tests{}, 3)} {
-    for (Signature& signature : signatures_) signature.follows_motion = follows_motion;
+    for (Signature& signature : signatures_) {
+      signature.follows_motion = follows_motion;
+      if constexpr (requires { Kernel::fresh_rates; }) signature.fresh_rates = Kernel::fresh_rates;
+    }
   }
 
   [[nodiscard]] const Signature& signature(int dimension) const override {

@@ -42,6 +42,9 @@ struct Signature {
   int values = 0;
   /// Whether the term can be differentiated with respect to where its points are, too.
   bool follows_motion = false;
+  /// Whether the term depends on the start of a step in such a way that rates there have to follow from the
+  /// balance at that instant, not, as the scheme with theta < 1 has it, from the step before.
+  bool fresh_rates = false;
 
   [[nodiscard]] int input_size(int dim) const { return size(inputs, dim); }
   [[nodiscard]] int output_size(int dim) const { return size(outputs, dim); }
