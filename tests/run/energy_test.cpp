@@ -75,7 +75,7 @@ TEST_CASE("the trapezoidal rule nearly keeps the energy", "[study]") {
   for (const double value : e) CHECK(value == Approx(e.front()).epsilon(2e-3));
 }
 
-TEST_CASE("contact that is cut off over a step feeds no energy in, contact at its end does") {
+TEST_CASE("contact that is cut off over a step feeds no energy in, contact at its end does", "[study]") {
   CHECK(most_after_ten_impacts("hybrid") < 1.01);
   CHECK(most_after_ten_impacts("plain") > 2);
 }
