@@ -55,17 +55,17 @@ struct BodyPull {
   /// gamma, Pa/m
   template <int dim, class G>
   [[nodiscard]] double stiffness(const Point<dim, G>& x) const {
-    const double share = weight(x);
-    return penalty * (share * x.constant[0] + (1 - share) * x.constant[1]);
+    const double omega = weight(x);
+    return penalty * (omega * x.constant[0] + (1 - omega) * x.constant[1]);
   }
   template <int dim, class T, class G>
   [[nodiscard]] T operator()(const Point<dim, G>& x, const Vec<dim, G>& normal,
                              const Mat<dim, dim, T>& own_gradient,
                              const Mat<dim, dim, T>& other_gradient) const {
-    const double share = weight(x);
+    const double omega = weight(x);
     T pull = T(stiffness(x) * x.gap);
-    if (share > 0) pull += share * normal_stress<dim, T>(*own, own_gradient, normal);
-    if (share < 1) pull += (1 - share) * normal_stress<dim, T>(*other, other_gradient, normal);
+    if (omega > 0) pull += omega * normal_stress<dim, T>(*own, own_gradient, normal);
+    if (omega < 1) pull += (1 - omega) * normal_stress<dim, T>(*other, other_gradient, normal);
     return pull;
   }
 };
@@ -95,7 +95,8 @@ Slots<A..., B...> join(Slots<A...>, Slots<B...>);
 ///   -xi s <D(omega sigma + (1 - omega) sigma')[du, du'], (t - omega sigma - (1 - omega) sigma') / gamma>,
 ///
 /// where D leaves normals as they are. With xi = -1 and s = 1 over both looks these are the variation of an
-/// energy, which is why the scheme with theta = 1/2 keeps energy then.
+/// energy, which is why the scheme with theta = 1/2 keeps energy then. It acts wherever there is an opposite
+/// point, touching or not.
 ///
 /// With `hybrid`, something else stands for t at the end of a step of the scheme with theta < 1, which takes
 /// theta of it and 1 - theta of t_0 = min(0, S_0) at the start. Where bodies part during the step, theta S +
@@ -137,14 +138,14 @@ struct Contact {
     if constexpr (sides == 2) r.value(other) += (on_other * t) * x.normal;
     if constexpr (with_adjoint) {
       const BodyPull& pull = bodies.pull;
-      const double share = pull.weight(x), stiffness = pull.stiffness(x);
+      const double omega = pull.weight(x), stiffness = pull.stiffness(x);
       const T missing = (-adjoint / stiffness) * (t - trial + T(stiffness * x.gap));
-      if (on_own * share > 0)
+      if (on_own * omega > 0)
         r.gradient(own) +=
-            (on_own * share) * (missing * variation<dim, T, G>(*pull.own, gradients[0], x.normal));
+            (on_own * omega) * (missing * variation<dim, T, G>(*pull.own, gradients[0], x.normal));
       if constexpr (sides == 2)
-        if (on_other * (1 - share) > 0)
-          r.gradient(other) += (on_other * (1 - share)) *
+        if (on_other * (1 - omega) > 0)
+          r.gradient(other) += (on_other * (1 - omega)) *
                                (missing * variation<dim, T, G>(*pull.other, gradients[1], x.normal));
     }
   }

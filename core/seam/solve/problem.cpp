@@ -161,10 +161,9 @@ bool Problem::needs_fresh_rates(double theta) const {
   });
   if (wanted && constrains_rates())
     throw Error(
-        "a coupling weighs the tractions at both ends of a step (`in_time: hybrid`), which needs rates that "
-        "the "
-        "balance at an instant determines; those of an incompressible fluid are not. Take `plain`, or theta "
-        "1");
+        "a term needs the rates at the start of each step, as contact with `in_time: hybrid` does, but those "
+        "of an incompressible fluid do not follow from the balance at an instant; take `in_time: plain`, or "
+        "theta 1");
   return wanted;
 }
 
