@@ -55,6 +55,10 @@ class ContactCoupling final : public Coupling {
     return sides.fields.size() == 1 ? terms_between<1>(sides) : terms_between<2>(sides);
   }
 
+  void check_beside(const std::vector<Neighbour>& all, std::size_t self) const override {
+    check_stresses(all, self);
+  }
+
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
     return sides.fields.size() == 1 ? measures_between<1>(sides) : measures_between<2>(sides);
   }

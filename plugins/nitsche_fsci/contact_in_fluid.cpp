@@ -67,6 +67,10 @@ class ContactInFluid final : public Coupling {
             {make_term(closed_contact(sides), 1), closed_operands, scale, "closed"}};
   }
 
+  void check_beside(const std::vector<Neighbour>& all, std::size_t self) const override {
+    check_stresses(all, self);
+  }
+
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
     using Near = TouchState<NearContact>;
     using Closed = TouchState<ClosedContact>;

@@ -66,6 +66,27 @@ void declare_stress(Schema& schema) {
       .otherwise("both");
 }
 
+void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t self) {
+  const Parameters& mine = all[self].parameters;
+  const std::string& whose = mine.text("stress");
+  if (whose == "both") return;
+  std::vector<std::string> looks_back = all[self].fields;
+  if (looks_back.size() < 2) return;  // a rigid obstacle has no stress
+  std::swap(looks_back.back(), looks_back[looks_back.size() - 2]);
+  for (const Coupling::Neighbour& other : all) {
+    if (other.parameters.type() != mine.type() || other.fields != looks_back) continue;
+    if (other.parameters.text("stress") != whose) continue;
+    throw Error(
+        mine.where("stress"),
+        fmt::format("`stress: {}` on both looks of '{}' and '{}' at each other: each body is told "
+                    "that {} stress is the right one, and forces do not balance; write `own` in one "
+                    "of the two couplings and `other` in the other one, or `both` in both. The other "
+                    "one stands at {}",
+                    whose, looks_back[looks_back.size() - 2], looks_back.back(),
+                    whose == "own" ? "its own" : "the other's", other.parameters.where("stress").text()));
+  }
+}
+
 BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
                    double penalty) {
   const std::string& name = parameters.text("stress");

@@ -32,6 +32,9 @@ std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const
 
 /// Adds the key `stress`: whose stress stands for that between the bodies.
 void declare_stress(Schema& schema);
+/// Of two looks of a pair of surfaces at each other, each of which says whose stress counts.
+/// @throws Error where both say `own`, or both say `other`: then forces do not balance
+void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t self);
 /// @param penalty gamma_0
 BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
                    double penalty);

@@ -75,6 +75,55 @@ TEST_CASE("What the first cut of a step drops stays out for the step", "[cut][pa
   CHECK(cut.mesh().find_parts().volume.size() == 1);
 }
 
+namespace {
+
+/// A pond with a chamber whose width is read by its walls, and what is known of its nodes.
+struct Chambered {
+  explicit Chambered(double first) : width(first) {
+    for (int k = 0; k < 4; ++k)
+      pond.cut.add_body([this, k](double) { return chamber(.43, .43 + width, .52, .52 + h)[k]; });
+  }
+  /// The first cut of a step to `time`; what it drops, in cells.
+  double step(double time, double to) {
+    pond.cut.begin_step();
+    width = to;
+    pond.cut.update(time);
+    return pond.cut.dropped_volume() / (h * h);
+  }
+  static constexpr double h = 1.0 / 20;
+  Pond pond{20};
+  double width;
+};
+
+}  // namespace
+
+TEST_CASE("A step that failed leaves no trace in what is dropped", "[cut][parts][ranks]") {
+  constexpr double h = Chambered::h;
+  Chambered tried(2.1 * h);
+  CHECK(tried.step(0, 2.1 * h) == 0);
+  const FieldCut::Memory before = tried.pond.cut.memory();
+  const std::vector<char> known = tried.pond.field.blocks()[0].known;
+  CHECK(tried.step(0.1, 1.8 * h) == Approx(1.8).epsilon(1e-9));
+  tried.pond.cut.recall(before, 0);
+  tried.pond.field.blocks()[0].known = known;
+  // Half the step again: the chamber is as large as it was and has been kept all the time.
+  CHECK(tried.step(0.05, 2.1 * h) == 0);
+}
+
+TEST_CASE("A run that is resumed knows what was dropped", "[cut][parts][ranks]") {
+  constexpr double h = Chambered::h;
+  Chambered whole(h);
+  CHECK(whole.step(0, h) == Approx(1).epsilon(1e-9));
+  const FieldCut::Memory memory = whole.pond.cut.memory();
+  CHECK(whole.step(0.1, 2.5 * h) == Approx(2.5).epsilon(1e-9));
+
+  Chambered resumed(h);
+  resumed.pond.cut.recall(memory, 0);
+  resumed.pond.cut.update(0);  // as the states are read, before a step is begun
+  CHECK(resumed.pond.cut.memory() == memory);
+  CHECK(resumed.step(0.1, 2.5 * h) == Approx(2.5).epsilon(1e-9));
+}
+
 TEST_CASE("A part that comes alive far from all others has no state to start from", "[cut][parts][ranks]") {
   const double h = 1.0 / 20;
   Pond pond(20);

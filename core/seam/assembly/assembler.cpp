@@ -2,10 +2,28 @@
 #include "seam/assembly/assembler.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "seam/assembly/together.hpp"
 #include "seam/base/stopwatch.hpp"
 
 namespace seam {
+
+namespace {
+
+/// Which components of a block displace points, [component]: positions are added to them.
+std::vector<char> displacements(const Field& field, const Block& block) {
+  std::vector<char> result(block.size, 0);
+  for (const Unknown& unknown : field.unknowns()) {
+    const Field::Place place = field.place(unknown.name);
+    if (&field.blocks()[place.block] != &block || unknown.unit != "m") continue;
+    std::fill_n(result.begin() + place.offset, place.components, char{1});
+  }
+  return result;
+}
+
+}  // namespace
 
 Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicator)
     : fields_(std::move(fields)), communicator_(communicator) {
@@ -99,7 +117,9 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
   std::fill(local_lift_.begin(), local_lift_.end(), 0.0);
   if (with_tangent) std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   find_pending();
-  for (Group& group : groups_) assemble_group(group, at, with_tangent);
+  together(communicator_, [&] {
+    for (Group& group : groups_) assemble_group(group, at, with_tangent);
+  });
   graph_.collect_vector(local_residual_);
   graph_.collect_vector(local_magnitude_);
   if (with_tangent) {
@@ -107,7 +127,57 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
     graph_.collect_vector(local_lift_);
   }
   hold_prescribed(with_tangent);
+  is_finite_ = !communicator_.any(!all_finite(with_tangent));
   assembly_seconds_ += watch.seconds();
+}
+
+bool Assembler::all_finite(bool with_tangent) const {
+  // Times zero what is finite adds nothing: one sum instead of a question for each number.
+  double sum = 0;
+  for (int r = 0; r < matrix_.rows; ++r)
+    sum += 0.0 * full_residual_[r] + 0.0 * magnitude_[r] + 0.0 * right_side_[r];
+  for (std::size_t k = 0; with_tangent && k < matrix_.entries(); ++k) sum += 0.0 * matrix_.value[k];
+  return sum == 0;
+}
+
+std::string Assembler::describe_not_finite(const TimePoint& at) {
+  std::string found;
+  for (Group& group : groups_)
+    for (int e = 0; e < group.domain->size() && found.empty(); ++e)
+      found = group.evaluator->describe_not_finite(e, at);
+  // That of the lowest rank that has one.
+  std::vector<char> text(found.begin(), found.end());
+  if (!text.empty()) text.push_back('\n');
+  text = communicator_.gather_all(text);
+  const auto end = std::find(text.begin(), text.end(), '\n');
+  return {text.begin(), end};
+}
+
+std::vector<double> Assembler::rounding() const {
+  constexpr double spacing = std::numeric_limits<double>::epsilon();
+  std::vector<double> size(pending_.size(), 0.0);  // of the unknown, per local unknown
+  for (const NumberedBlock& b : blocks_) {
+    double extent = 0;
+    for (int node = 0; node < b.block->space->nodes(); ++node)
+      for (int d = 0; d < b.field->mesh().dimension(); ++d)
+        extent = std::max(extent, std::abs(b.block->space->position(node)[d]));
+    extent = communicator_.max(extent);
+    const std::vector<char> displaces = displacements(*b.field, *b.block);
+    for (std::size_t node = 0; node < b.node_index.size(); ++node) {
+      if (b.node_index[node] < 0) continue;
+      const int first = graph_.node(b.node_index[node]).first;
+      for (int c = 0; c < b.block->size; ++c)
+        size[first + c] =
+            std::abs(b.block->now.value[node * b.block->size + c]) + (displaces[c] ? extent : 0.0);
+    }
+  }
+  std::vector<double> result(matrix_.rows, 0.0);
+  for (int r = 0; r < matrix_.rows; ++r)
+    for (std::size_t k = matrix_.row_start[r]; k < matrix_.row_start[r + 1]; ++k)
+      // Columns of nodes that only other ranks know are left out: it is an estimate.
+      if (const auto column = static_cast<std::size_t>(matrix_.column[k]); column < size.size())
+        result[r] += spacing * std::abs(matrix_.value[k]) * size[column];
+  return result;
 }
 
 void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tangent) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "seam/assembly/evaluator.hpp"
@@ -26,7 +27,17 @@ class Assembler {
   /// Numbers the active unknowns and builds the pattern. Collective.
   void rebuild();
   /// Sets residual, magnitude and (with_tangent) matrix at the present states of the fields. Collective.
+  /// @throws StepRefused on all ranks when a term refuses the step on one
   void assemble(const TimePoint& at, bool with_tangent);
+  /// Whether all that was assembled last is: residual, magnitude and matrix. The same on all ranks.
+  [[nodiscard]] bool is_finite() const { return is_finite_; }
+  /// Says what is not finite at the present states: the term, what it speaks of, the cell and the point; ""
+  /// when everything is. Evaluates terms one by one: not for every step. Collective.
+  [[nodiscard]] std::string describe_not_finite(const TimePoint& at);
+  /// What the rounding of unknowns makes of the residual, [owned row]: the matrix, each entry by its size,
+  /// times the spacing of floating-point numbers at the unknowns, where displacements count as what they are
+  /// added to, positions. From the last matrix. Collective.
+  [[nodiscard]] std::vector<double> rounding() const;
 
   [[nodiscard]] const Matrix& matrix() const { return matrix_; }
   /// [owned row]; zero where the unknown is prescribed.
@@ -84,6 +95,7 @@ class Assembler {
   void add_free_block(int row_node, int column_node, const NodeBlock& block);
   void add_held_block(int row_node, int column_node, const NodeBlock& block);
   void hold_prescribed(bool with_tangent);
+  [[nodiscard]] bool all_finite(bool with_tangent) const;
 
   std::vector<Field*> fields_;
   Communicator communicator_;
@@ -98,6 +110,7 @@ class Assembler {
   std::vector<double> local_lift_;  ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;
   std::vector<int> element_nodes_;
+  bool is_finite_ = true;
   double assembly_seconds_ = 0, pattern_seconds_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "seam/assembly/contraction.hpp"
@@ -87,6 +88,9 @@ class ElementEvaluator {
   /// Evaluates a quantity at the points of element `index`: the first of the terms that holds there.
   /// @return [point][Signature::values]; empty where none does
   const std::vector<double>& compute_values(int index, const TimePoint& at);
+  /// Names the first term of element `index` that reads or gives what is no finite number at the present
+  /// states, with its unknowns, cell and point; "" where all is finite.
+  [[nodiscard]] std::string describe_not_finite(int index, const TimePoint& at);
   [[nodiscard]] const Element& element() const { return element_; }
   /// [row]
   [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
@@ -128,6 +132,7 @@ class ElementEvaluator {
   void compute_normal_operators(int part);
   void gather();
   void add_change_to_magnitude();
+  [[nodiscard]] std::string describe_not_finite(const Compiled& term) const;
   void compute_inputs(const Compiled& term);
   void evaluate(const Compiled& term, const TimePoint& at, bool with_tangent);
   void add_residual(const Compiled& term);

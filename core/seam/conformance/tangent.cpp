@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/conformance/tangent.hpp"
 
-#include <cxxabi.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <memory>
 #include <random>
-#include <typeinfo>
 
 #include "seam/conformance/finite_difference.hpp"
 #include "seam/linear/linear_solver.hpp"
+#include "seam/term/term_name.hpp"
 
 namespace seam {
 namespace {
@@ -71,19 +69,6 @@ double scale_of(const Field& field, const Unknown& unknown) {
   return most > 1e-12 ? most : 1.0;
 }
 
-/// The name of the kernel, as its author wrote it.
-std::string term_name(const Term& term) {
-  int status = 0;
-  const std::unique_ptr<char, decltype(&std::free)> text(
-      abi::__cxa_demangle(typeid(term).name(), nullptr, nullptr, &status), &std::free);
-  std::string name = status == 0 ? text.get() : typeid(term).name();
-  const std::string wrapper = "seam::KernelTerm<";
-  if (name.starts_with(wrapper)) name = name.substr(wrapper.size(), name.size() - wrapper.size() - 1);
-  const std::string hidden = "(anonymous namespace)::";
-  for (std::size_t at = 0; (at = name.find(hidden, at)) != std::string::npos;) name.erase(at, hidden.size());
-  return name;
-}
-
 void free_prescribed(Problem& problem) {
   for (FieldEntry& entry : problem.fields())
     for (Block& block : entry.field->blocks()) std::fill(block.prescribed.begin(), block.prescribed.end(), 0);
@@ -138,7 +123,7 @@ std::vector<double> unknown_scales(const Problem& problem) {
 
 TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at, bool spaces_follow) {
   constexpr int directions = 3;
-  const Problem::Snapshot here = problem.snapshot();
+  const Problem::Snapshot here = problem.snapshot(at.time);
   assembler.assemble(at, true);
   const std::vector<double> magnitude = assembler.magnitude();
   const auto unknowns = rows_of_unknowns(problem, assembler);

@@ -34,14 +34,29 @@ ContactDomain::ContactDomain(std::shared_ptr<const BodySurface> own, std::shared
       other_(std::move(other)),
       obstacle_(std::move(obstacle)),
       window_(window),
+      passage_(own_, other_, window),
       rule_(
           &quadrature(own_->body().mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree)),
       facets_(owned_facets(*own_)),
       movers_{{0, own_->displacement()}},
       of_side_{{own_->body(), own_->place()}} {
+  measure_cells();
   if (!other_) return;
   movers_.push_back({1, other_->displacement()});
   of_side_.emplace_back(other_->body(), other_->place());
+}
+
+void ContactDomain::measure_cells() {
+  const Mesh& mesh = own_->body().mesh();
+  std::map<int, double> volume;  // by global cell
+  for (int c = 0; c < mesh.owned_cells(); ++c) volume[mesh.global_cell(c)] = mesh.volume(c);
+  std::map<std::pair<int, int>, double> area;  // by global cell and face
+  for (int f = 0; f < own_->facet_count(); ++f)
+    area[{own_->parent(f).cell, own_->parent(f).face}] += own_->rest_area(f);
+  for (const int f : facets_) {
+    const CellFace& face = own_->parent(f);
+    trace_size_[f] = volume.at(face.cell) / area.at({face.cell, face.face});
+  }
 }
 
 std::vector<Field*> ContactDomain::fields() const {
@@ -53,8 +68,11 @@ bool ContactDomain::follow(double time) {
   std::vector<Pairing> before;
   for (const Piece& piece : elements_) before.push_back({piece.facet, piece.opposite_group});
   elements_.clear();
-  const OppositePoints opposite(*own_, other_.get(), !other_ ? obstacle_(time) : other_->now(), window_);
+  const OppositePoints opposite(*own_, other_.get(), opposite_at(time), window_);
   for (const int facet : facets_) add_facet(opposite, facet);
+  double least_gap = 0;
+  for (const Piece& piece : elements_) least_gap = std::min(least_gap, *std::ranges::min_element(piece.gap));
+  passage_.check(opposite, own_->body().mesh().communicator().min(least_gap));
   return !std::ranges::equal(before, elements_, [](const Pairing& pairing, const Piece& piece) {
     return pairing == Pairing{piece.facet, piece.opposite_group};
   });
@@ -124,7 +142,7 @@ void ContactDomain::fill(int index, Element& element) const {
   element.weight = piece.own.weight;
   element.normal = piece.normal;
   element.gap = piece.gap;
-  element.set_sizes(element.sides[0].diameter, element.sides[0].diameter);
+  element.set_sizes(element.sides[0].diameter, trace_size_.at(piece.facet));
   element.motion = &piece.motion;
   element.constants.resize(constants_.size());
   for (std::size_t k = 0; k < constants_.size(); ++k) {

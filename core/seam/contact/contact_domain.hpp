@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "seam/assembly/domains.hpp"
 #include "seam/contact/opposite_points.hpp"
+#include "seam/contact/passage.hpp"
+#include "seam/interface/begins_steps.hpp"
 #include "seam/interface/body_surface.hpp"
 #include "seam/interface/cell_constant.hpp"
 
@@ -14,7 +17,7 @@ namespace seam {
 
 /// The points of a body's surface that have another surface opposite to them, in its current configuration.
 /// An element is a facet of this rank's cells with those points that share the cell opposite.
-class ContactDomain final : public IntegrationDomain {
+class ContactDomain final : public IntegrationDomain, public BeginsSteps {
  public:
   /// @param other null where the opposite surface is given
   /// @param obstacle the given surface; unused otherwise
@@ -26,7 +29,9 @@ class ContactDomain final : public IntegrationDomain {
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
+  /// @throws StepRefused when the surfaces have passed through each other
   bool follow(double time) override;
+  void begin_step(double from) override { passage_.begin_step(opposite_at(from)); }
   int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override;
   void forget_constants(bool new_step) override;
   [[nodiscard]] std::string description() const override;
@@ -42,14 +47,18 @@ class ContactDomain final : public IntegrationDomain {
     int facet, opposite_group;
     friend bool operator==(const Pairing&, const Pairing&) = default;
   };
+  [[nodiscard]] Surface opposite_at(double time) const { return other_ ? other_->now() : obstacle_(time); }
+  void measure_cells();
   void add_facet(const OppositePoints& opposite, int facet);
   Piece& piece(int facet, int opposite_group);
 
   std::shared_ptr<const BodySurface> own_, other_;
   MovingSurface obstacle_;
   ContactWindow window_;
+  Passage passage_;
   const Quadrature* rule_;
-  std::vector<int> facets_;  ///< of this rank's cells
+  std::vector<int> facets_;           ///< of this rank's cells
+  std::map<int, double> trace_size_;  ///< of these: volume of the cell over the area of its face, m
   std::vector<Operand> movers_;
   std::vector<Piece> elements_;
   struct Constant {

@@ -29,6 +29,10 @@ std::vector<Field*> EmbeddedPart::fields() const {
   return result;
 }
 
+void EmbeddedPart::begin_step(double) {
+  if (part_ == EmbeddedSurface::free) surface_->begin_step();
+}
+
 bool EmbeddedPart::follow(double) { return part_ == EmbeddedSurface::free && surface_->follow(); }
 
 void EmbeddedPart::fill(int index, Element& element) const {

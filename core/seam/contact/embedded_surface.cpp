@@ -62,6 +62,7 @@ EmbeddedSurface::EmbeddedSurface(Field& field, const FieldCut& cut, int number,
       own_(std::move(own)),
       other_(std::move(other)),
       window_(window),
+      passage_(own_, other_, window),
       rule_(&quadrature(field.mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree_)) {}
 
 bool EmbeddedSurface::follow() {
@@ -76,6 +77,11 @@ bool EmbeddedSurface::follow() {
       for (int part = 0; part < field_->parts(cell); ++part) add_wet(cell, part, opposite);
     }
   add_closed(opposite);
+  double least_gap = 0;
+  for (const auto& of_part : elements_)
+    for (const Element& element : of_part)
+      for (const double gap : element.gap) least_gap = std::min(least_gap, gap);
+  passage_.check(opposite, field_->mesh().communicator().min(least_gap));
   return before != keys();
 }
 

@@ -7,7 +7,9 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/contact/opposite_points.hpp"
+#include "seam/contact/passage.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/interface/begins_steps.hpp"
 #include "seam/interface/body_surface.hpp"
 #include "seam/interface/cell_constant.hpp"
 
@@ -43,6 +45,7 @@ class EmbeddedSurface {
   /// Finds all points anew. Collective. @return true when elements are others than before
   /// @throws StepRefused when the surface has passed through the other one, so that no contact is seen
   bool follow();
+  void begin_step() { passage_.begin_step(other_->now()); }
 
   [[nodiscard]] Field& field() const { return *field_; }
   [[nodiscard]] const BodySurface& own() const { return *own_; }
@@ -98,6 +101,7 @@ class EmbeddedSurface {
   int number_, degree_;
   std::shared_ptr<const BodySurface> own_, other_;
   ContactWindow window_;
+  Passage passage_;
   const Quadrature* rule_;  ///< on closed facets
   std::array<std::vector<Element>, part_count> elements_;
   std::vector<Wet> wet_;                         ///< of this rank
@@ -105,7 +109,7 @@ class EmbeddedSurface {
 };
 
 /// One of the parts as a domain of integration.
-class EmbeddedPart final : public IntegrationDomain {
+class EmbeddedPart final : public IntegrationDomain, public BeginsSteps {
  public:
   EmbeddedPart(std::shared_ptr<EmbeddedSurface> surface, EmbeddedSurface::Part part);
   [[nodiscard]] int size() const override { return static_cast<int>(surface_->elements(part_).size()); }
@@ -116,6 +120,7 @@ class EmbeddedPart final : public IntegrationDomain {
   [[nodiscard]] int swept_side() const override { return part_ == EmbeddedSurface::closed ? -1 : 0; }
   /// The first part finds the points of all.
   bool follow(double time) override;
+  void begin_step(double from) override;
   int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override;
   void forget_constants(bool new_step) override;
   [[nodiscard]] std::string description() const override;

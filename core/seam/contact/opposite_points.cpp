@@ -85,6 +85,12 @@ std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double*
   return hit;
 }
 
+std::optional<FacetSearch::Hit> OppositePoints::facing(int facet, const double* on_facet, double depth,
+                                                       double reach) const {
+  const Vector x = point_on(surface_.dimension, own_vertices(facet), on_facet);
+  return search_.find(x.data(), normal(facet).data(), depth, reach, neighbours(facet));
+}
+
 OppositePoints::Hit OppositePoints::far_hit(int facet, const double* on_facet, int other_facet) const {
   Hit hit{facet, other_facet, {}};
   FacetPair& pair = hit.pair;

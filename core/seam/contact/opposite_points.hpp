@@ -31,6 +31,12 @@ class OppositePoints {
   };
   /// @param on_facet the facet's own coordinates, [dimension - 1]
   [[nodiscard]] std::optional<Hit> find(int facet, const double* on_facet) const;
+  /// The nearest facet that faces a point, seen as far as one likes.
+  /// @param depth, reach m, as FacetSearch::find() has them
+  [[nodiscard]] std::optional<FacetSearch::Hit> facing(int facet, const double* on_facet, double depth,
+                                                       double reach) const;
+  [[nodiscard]] const Surface& own_surface() const { return surface_; }
+  [[nodiscard]] const Surface& opposite_surface() const { return search_.surface(); }
   /// Takes another facet for the one opposite, infinitely far away: for a point that has none, and whose
   /// place depends on that facet.
   [[nodiscard]] Hit far_hit(int facet, const double* on_facet, int other_facet) const;

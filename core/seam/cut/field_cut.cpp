@@ -60,6 +60,22 @@ bool FieldCut::update(double time) {
   return true;
 }
 
+FieldCut::Memory FieldCut::memory() const {
+  Memory memory;
+  for (const Decision decision : decision_) memory.decision.push_back(static_cast<char>(decision));
+  memory.held = held_;
+  return memory;
+}
+
+void FieldCut::recall(const Memory& memory, double time) {
+  decision_.clear();
+  for (const char decision : memory.decision) decision_.push_back(static_cast<Decision>(decision));
+  held_ = memory.held;
+  decided_ = !decision_.empty();
+  time_ = time;
+  surfaces_.clear();  // the mesh is cut anew, whatever it was cut by last
+}
+
 void FieldCut::choose_sets() {
   mesh_.separate_parts();
   const std::shared_ptr<const PartLayout> before = field_->layout();

@@ -45,6 +45,18 @@ class FieldCut {
     field_->keep_cut_faces(true);
   }
 
+  /// What has been decided so far and later cuts go by, [local cell]: with the states, all that a cut depends
+  /// on.
+  struct Memory {
+    std::vector<char> decision;  ///< Decision
+    std::vector<char> held;      ///< see hold()
+    friend bool operator==(const Memory&, const Memory&) = default;
+  };
+  [[nodiscard]] Memory memory() const;
+  /// Goes back to what had been decided by the end of the step that ended at `time`: cuts at that time follow
+  /// it, and the next step decides anew.
+  void recall(const Memory& memory, double time);
+
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
   /// the caller. Collective.

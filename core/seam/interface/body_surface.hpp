@@ -39,6 +39,10 @@ class BodySurface {
   [[nodiscard]] const std::string& displacement() const { return displacement_; }
   [[nodiscard]] const Field::Place& place() const { return place_; }
 
+  /// The face of the mesh that a facet is part of; its cell by global number.
+  [[nodiscard]] const CellFace& parent(int facet) const { return boundary_.parent[facet]; }
+  /// Where the body is not deformed, m^(d-1).
+  [[nodiscard]] double rest_area(int facet) const;
   /// Number of the cell behind a facet, among those of the surface.
   [[nodiscard]] int group(int facet) const { return group_[facet]; }
   [[nodiscard]] int group_count() const { return static_cast<int>(cells_.size()); }

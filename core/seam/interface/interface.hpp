@@ -10,6 +10,7 @@
 #include "seam/assembly/evaluator.hpp"
 #include "seam/cut/body.hpp"
 #include "seam/interface/cell_constant.hpp"
+#include "seam/scene/parameters.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
@@ -105,6 +106,18 @@ class Coupling {
   [[nodiscard]] virtual std::vector<Measure> measures(const CouplingSides& sides) const {
     (void)sides;
     return {};
+  }
+  /// A coupling of the scene as others see it: what the scene says of it, and the fields of its interface.
+  struct Neighbour {
+    Parameters parameters;
+    std::vector<std::string> fields;
+  };
+  /// Looks at all couplings of the scene, before any is asked for terms.
+  /// @param self its own number among them
+  /// @throws Error where it does not go together with one of them
+  virtual void check_beside(const std::vector<Neighbour>& all, std::size_t self) const {
+    (void)all;
+    (void)self;
   }
 };
 

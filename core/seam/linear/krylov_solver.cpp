@@ -28,6 +28,8 @@ KrylovSolver::KrylovSolver(const Parameters& p)
 
 KrylovSolver::~KrylovSolver() = default;
 
+void KrylovSolver::forget() { preconditioner_.reset(); }
+
 Schema KrylovSolver::schema() {
   Schema s(
       "GMRES with algebraic multigrid or incomplete factorisation per field block, for large "
@@ -56,8 +58,41 @@ bool KrylovSolver::worth_keeping(const Matrix& a) const {
          preconditioner_->last_iterations <= keep_ * preconditioner_->first_iterations;
 }
 
+namespace {
+
+/// What a block means is told by its components, as long as a field has all of its unknowns in one: those of
+/// another order stand in a block of their own, a pressure without the velocity that it belongs to.
+void refuse_mixed_orders(const std::vector<EquationBlock>& blocks) {
+  for (std::size_t k = 1; k < blocks.size(); ++k)
+    if (blocks[k].field == blocks[k - 1].field)
+      throw Error(fmt::format(
+          "field '{}' has unknowns of several orders, which `linear: krylov` has no preconditioner for; take "
+          "`linear: direct`, or unknowns of one order",
+          blocks[k].field));
+}
+
+}  // namespace
+
 void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,
                               const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
+  refuse_mixed_orders(blocks);
+  try {
+    solve_preconditioned(a, blocks, b, x, report);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    // The libraries throw what they like where a pivot is zero or a norm is not finite.
+    preconditioner_.reset();
+    throw SingularMatrix(fmt::format("the iterative solver broke down, in its own words:\n{}\nTry another "
+                                     "`preconditioner`, or `linear: direct`",
+                                     error.what()),
+                         {});
+  }
+}
+
+void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                                        const std::vector<double>& b, std::vector<double>& x,
+                                        SolveReport& report) {
   const Stopwatch watch;
   report.new_factorisation = !worth_keeping(a);
   // A view of its own for every solve: the same pattern may have been built anew, in other memory.

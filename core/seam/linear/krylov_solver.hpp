@@ -28,6 +28,7 @@ class KrylovSolver final : public LinearSolver {
   KrylovSolver(const KrylovSolver&) = delete;
   KrylovSolver& operator=(const KrylovSolver&) = delete;
   static Schema schema();
+  void forget() override;
 
  protected:
   void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
@@ -36,6 +37,8 @@ class KrylovSolver final : public LinearSolver {
  private:
   struct Preconditioner;
   [[nodiscard]] bool worth_keeping(const Matrix& a) const;
+  void solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                            const std::vector<double>& b, std::vector<double>& x, SolveReport& report);
   double tolerance_;
   int maximum_iterations_;
   int restart_;

@@ -37,6 +37,8 @@ class LinearSolver {
   /// @throws SingularMatrix, or Error when the true residual stays above the tolerance
   SolveReport solve(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
                     std::vector<double>& x);
+  /// Drops what is kept from one solve to the next: the next one is as if it were the first.
+  virtual void forget() {}
 
  protected:
   virtual void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,

@@ -203,6 +203,8 @@ void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&,
   std::copy_n(all.begin() + a.first_row, a.rows, x.begin());
 }
 
+void MumpsSolver::forget() { instance_->factorised = false; }
+
 void MumpsSolver::remember_unknowns(const Matrix& a) {
   const std::vector<long long> all = a.communicator.gather_all(a.unknown);
   instance_->equation.clear();

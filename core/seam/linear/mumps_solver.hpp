@@ -18,6 +18,8 @@ class MumpsSolver final : public LinearSolver {
   MumpsSolver(const MumpsSolver&) = delete;
   MumpsSolver& operator=(const MumpsSolver&) = delete;
   static Schema schema();
+  /// The analysis stays: it follows from the pattern alone.
+  void forget() override;
 
  protected:
   void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <TpetraExt_MatrixMatrix.hpp>
 
+#include "seam/base/diagnostics.hpp"
 #include "seam/linear/preconditioner.hpp"
 
 namespace seam {
@@ -31,6 +34,7 @@ class Simple final : public TpetraOperator {
     Tpetra::MatrixMatrix::Multiply(*divergence_, false, *gradient_, false, *product);
     const auto c = constrained_.submatrix(a, constrained_);
     const auto schur = Tpetra::MatrixMatrix::add(1.0, false, *c, 1.0, false, *product);
+    refuse_free_level(*schur, block);
     schur_inverse_ = make_multigrid(schur, part(block, block.constraints()));
   }
   [[nodiscard]] Teuchos::RCP<const TpetraMap> getDomainMap() const override { return map_; }
@@ -53,6 +57,21 @@ class Simple final : public TpetraOperator {
     Teuchos::RCP<TpetraOperator> inverse;
     std::vector<Teuchos::RCP<TpetraMatrix>> before;  ///< what couples it to each of those in front
   };
+  /// What holds a constant pressure may lie in another field: the complement, which knows this one only, is
+  /// singular then, and iterations stop short of the solution.
+  static void refuse_free_level(const TpetraMatrix& schur, const EquationBlock& block) {
+    constexpr double rounding = 1e-11;
+    TpetraVector constant(schur.getDomainMap(), 1), image(schur.getRangeMap(), 1);
+    constant.putScalar(1);
+    schur.apply(constant, image);
+    if (image.getVector(0)->norm2() > rounding * schur.getFrobeniusNorm()) return;
+    throw Error(fmt::format(
+        "the level of the scalar unknown of field '{}' (its pressure) is held by nothing in this field, only "
+        "by "
+        "what it is coupled to: `preconditioner: schur` treats the field by itself and cannot solve for it; "
+        "take `linear: {{type: krylov, preconditioner: multigrid}}`, or ilu, or `linear: direct`",
+        block.field));
+  }
   /// Rows of the components [from, to) of all nodes.
   static std::vector<int> rows(const EquationBlock& block, int from, int to) {
     std::vector<int> result;

@@ -33,9 +33,9 @@ CheckResult evaluate(const Parameters& check, const Results& results) {
   CheckResult result;
   result.that = check.text("that");
   result.source = check.text("source");
-  const double at = check.has("at") ? check.number("at") : std::numeric_limits<double>::max();
   try {
-    result.value = results.value(result.that, at);
+    result.value =
+        check.has("at") ? results.value(result.that, check.number("at")) : results.value(result.that);
   } catch (const Error& error) {
     throw Error(check.where("that"), error.what());
   }
@@ -60,6 +60,9 @@ CheckResult evaluate(const Parameters& check, const Results& results) {
   }
   if (expected.empty())
     throw Error(check.where(), "a check needs `is` with `within`, `at_least` or `at_most`");
+  if (check.has("at") && std::isnan(result.value))
+    expected.push_back(fmt::format("at t = {:.6g}, which the run (to t = {:.6g}) does not have",
+                                   check.number("at"), results.time.back()));
   for (const std::string& e : expected) result.expected += (result.expected.empty() ? "" : ", ") + e;
   return result;
 }
@@ -69,6 +72,17 @@ CheckResult evaluate(const Parameters& check, const Results& results) {
 std::vector<CheckResult> evaluate_checks(const std::vector<Parameters>& checks, const Results& results) {
   std::vector<CheckResult> all;
   for (const Parameters& check : checks) all.push_back(evaluate(check, results));
+  // Whatever a run tells at its end must be a number, asked for or not.
+  for (const std::string& name : results.names()) {
+    const bool is_checked =
+        std::ranges::any_of(all, [&](const CheckResult& result) { return result.that == name; });
+    if (is_checked || !std::isnan(results.value(name))) continue;
+    CheckResult& result = all.emplace_back();
+    result.that = name;
+    result.value = std::nan("");
+    result.expected = "a number";
+    result.source = "too few samples, or a formula without a value";
+  }
   return all;
 }
 

@@ -21,7 +21,8 @@ struct CheckResult {
   std::string source;
 };
 
-/// Compares the results of a run with the `checks` of its scene.
+/// Compares the results of a run with the `checks` of its scene. Results that are no number fail, too,
+/// whether or not a check asks for them.
 /// @throws Error naming the place of a check whose quantity the run does not have
 std::vector<CheckResult> evaluate_checks(const std::vector<Parameters>& checks, const Results& results);
 

@@ -23,7 +23,8 @@ struct Window {
     return sum;
   }
   [[nodiscard]] double mean() const { return integral() / (time.back() - time.front()); }
-  /// Of the upward crossings of the mean, interpolated between the steps; 0 when there are fewer than two.
+  /// Of the upward crossings of the mean, interpolated between the steps; no number when there are fewer than
+  /// two.
   [[nodiscard]] double frequency() const {
     const double level = mean();
     double first = 0, last = 0;
@@ -34,7 +35,7 @@ struct Window {
       last = time[k - 1] + part * (time[k] - time[k - 1]);
       if (crossings++ == 0) first = last;
     }
-    return crossings > 1 ? (crossings - 1) / (last - first) : 0;
+    return crossings > 1 ? (crossings - 1) / (last - first) : std::nan("");
   }
   /// Largest increase from one step to the next; 0 when it never increases.
   [[nodiscard]] double rise() const {
@@ -102,10 +103,9 @@ double statistic(const Parameters& p, const Results& results) {
   const std::size_t first = begin - results.time.begin();
   const std::string& what = p.text("what");
   const bool bends = what == "curvature" || what.starts_with("kink");
-  const std::size_t least = bends ? 3 : 2;
-  if (count < least)
-    throw Error(p.where(), fmt::format("fewer than {} steps were recorded from t = {} to {}",
-                                       bends ? "three" : "two", from, to));
+  // Of too few samples a statistic says nothing: it is no number, and fails.
+  const std::size_t least = what == "roughness" ? 5 : bends ? 3 : 2;
+  if (count < least) return std::nan("");
   const Window window{std::span(results.time).subspan(first, count),
                       std::span(series->second).subspan(first, count)};
   if (std::ranges::any_of(window.value, [](double v) { return std::isnan(v); })) return std::nan("");

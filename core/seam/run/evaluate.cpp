@@ -212,7 +212,7 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
   const Mesh& mesh = entry.field->mesh();
   const Communicator& communicator = mesh.communicator();
   if (mesh.type() == CellType::point) {
-    cell_ = mesh.owned_cells() > 0 ? 0 : -1;
+    if (mesh.owned_cells() > 0) places_.push_back({0, {}});
     return;
   }
   const int dim = mesh.dimension();
@@ -251,30 +251,32 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
   if (overall > tolerance)
     throw Error(where, fmt::format("the point ({}) lies outside the mesh '{}' of field '{}'",
                                    fmt::join(position, ", "), mesh.name(), entry.name));
-  // Gradients differ between the cells that meet at a point: the one with the lowest number, whatever the
-  // ranks.
-  double lowest = std::numeric_limits<double>::max();
-  for (const Candidate& candidate : candidates) {
-    if (candidate.outside > overall + 1e-10 || mesh.global_cell(candidate.cell) >= lowest) continue;
-    lowest = mesh.global_cell(candidate.cell);
-    cell_ = candidate.cell;
-    reference_ = candidate.reference;
-  }
-  if (communicator.min(lowest) != lowest) cell_ = -1;
+  constexpr double rounding = 1e-10;
+  for (Candidate& candidate : candidates)
+    if (candidate.outside <= std::max(overall, 0.0) + rounding)
+      places_.push_back({candidate.cell, std::move(candidate.reference)});
 }
 
 std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQuantity& quantity,
                                          const TimePoint& at) const {
-  std::vector<double> result(quantity.components, 0.0);
-  if (cell_ >= 0) {
-    const Field& field = *entry.field;
-    const int part = field.parts(cell_) > 1 ? field.cut()->part_at(cell_, position_) : 0;
-    const SampleDomain domain(entry, {{cell_, part}}, reference_);
+  const Field& field = *entry.field;
+  const Communicator& communicator = field.mesh().communicator();
+  // Cells that a body covers count only where there is nothing else.
+  const auto is_active = [&](const Place& place) { return field.active_cells()[place.cell] != 0; };
+  const bool any = communicator.any(std::ranges::any_of(places_, is_active));
+  std::vector<double> sum(quantity.components + 1, 0.0);  // the last one counts
+  for (const Place& place : places_) {
+    if (any && !is_active(place)) continue;
+    const int part = field.parts(place.cell) > 1 ? field.cut()->part_at(place.cell, position_) : 0;
+    const SampleDomain domain(entry, {{place.cell, part}}, place.reference);
     ElementEvaluator evaluator(domain, quantity.terms);
     const auto& values = evaluator.compute_values(0, at);
-    std::copy_n(values.begin(), result.size(), result.begin());
+    for (int c = 0; c < quantity.components; ++c) sum[c] += values[c];
+    ++sum.back();
   }
-  entry.field->mesh().communicator().sum(result);
+  communicator.sum(sum);
+  std::vector<double> result(sum.begin(), sum.end() - 1);
+  for (double& value : result) value /= sum.back();
   return result;
 }
 

@@ -44,7 +44,8 @@ std::vector<double> interface_force(const Problem& problem, const std::string& i
 double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
                          const Communicator& communicator);
 
-/// A point of a field: found once, evaluated often.
+/// A point of a field: found once, evaluated often. Where cells meet at the point, what jumps between them,
+/// as gradients do, is the mean of their values: whichever cell one took would be one by its number.
 class ProbePoint {
  public:
   /// Collective. @throws Error when the point lies in no cell, with the distance to the nearest one
@@ -54,9 +55,12 @@ class ProbePoint {
                                              const TimePoint& at) const;
 
  private:
-  int cell_ = -1;  ///< local, on the rank that evaluates; -1 elsewhere
+  struct Place {
+    int cell;  ///< local, owned
+    std::vector<double> reference;
+  };
+  std::vector<Place> places_;
   std::array<double, 3> position_{};
-  std::vector<double> reference_;
 };
 
 /// Sum of the forces that hold the prescribed components of an unknown on boundaries. Collective.

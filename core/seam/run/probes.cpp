@@ -4,6 +4,7 @@
 #include <fmt/os.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -17,6 +18,24 @@ std::string field_of(const Parameters& p, const Problem& problem) {
     throw Error(p.where(), "a probe needs either `field` or `interface`");
   if (p.has("field")) return p.text("field");
   return problem.interfaces().at(p.text("interface")).front().domain->fields().front()->name();
+}
+
+/// Reactions are those of a field's first unknown.
+/// @throws Error where the boundaries prescribe others only
+void require_prescribed(const FieldEntry& entry, const std::vector<std::string>& boundaries) {
+  const Unknown& first = entry.field->unknowns().front();
+  std::string other;
+  for (const PrescribedCondition& condition : entry.conditions) {
+    const bool is_meant =
+        boundaries.end() != std::ranges::find(boundaries, condition.boundary) || condition.boundary.empty();
+    if (is_meant && condition.unknown == first.name) return;
+    if (is_meant) other = condition.unknown;
+  }
+  if (!other.empty())
+    throw Error(
+        fmt::format("a reaction is what holds the first unknown of a field, here '{}', but on {} only "
+                    "'{}' is prescribed; that of another unknown cannot be recorded yet",
+                    first.name, fmt::join(boundaries, ", "), other));
 }
 
 }  // namespace
@@ -43,6 +62,7 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
       throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
     quantity_ =
         find_quantity(entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
+    if (reaction_) require_prescribed(entry, boundaries_);
   } catch (const Error& error) {
     throw Error(p.where("quantity"), error.what());
   }

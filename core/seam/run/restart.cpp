@@ -17,7 +17,7 @@ namespace seam {
 namespace {
 
 // File: magic, format number, length of a JSON header, header, doubles, checksum of all that.
-constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '2'};
+constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '3'};
 
 std::string block_name(const FieldEntry& entry, std::size_t b) {
   return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());
@@ -31,24 +31,61 @@ nlohmann::json describe(const FieldEntry& entry, std::size_t b) {
           {"levels", block.now.levels().size()}};
 }
 
-/// Values of all nodes of a block by global number, on rank 0: [global node][component].
-std::vector<double> collect(const Block& block, const std::vector<double>& values) {
-  const Space& space = *block.space;
-  const Communicator& communicator = space.mesh().communicator();
-  std::vector<std::vector<int>> nodes(communicator.size());
+/// Values by global number, on rank 0: [global entity][component].
+/// @param global number of each owned entity @param count of all of them
+std::vector<double> collect(const Communicator& communicator, const std::vector<int>& global, int count,
+                            int size, const std::vector<double>& values) {
+  std::vector<std::vector<int>> entities(communicator.size());
   std::vector<std::vector<double>> data(communicator.size());
-  for (int n = 0; n < space.owned_nodes(); ++n) nodes[0].push_back(space.global_node(n));
-  data[0].assign(values.begin(),
-                 values.begin() + static_cast<std::ptrdiff_t>(space.owned_nodes()) * block.size);
-  const auto all_nodes = communicator.exchange(nodes);
+  entities[0] = global;
+  data[0].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(global.size()) * size);
+  const auto all_entities = communicator.exchange(entities);
   const auto all_data = communicator.exchange(data);
   if (communicator.rank() != 0) return {};
-  std::vector<double> result(static_cast<std::size_t>(space.global_bound()) * block.size, 0.0);
-  for (std::size_t r = 0; r < all_nodes.size(); ++r)
-    for (std::size_t k = 0; k < all_nodes[r].size(); ++k)
-      std::copy_n(all_data[r].begin() + static_cast<std::ptrdiff_t>(k) * block.size, block.size,
-                  result.begin() + static_cast<std::ptrdiff_t>(all_nodes[r][k]) * block.size);
+  std::vector<double> result(static_cast<std::size_t>(count) * size, 0.0);
+  for (std::size_t r = 0; r < all_entities.size(); ++r)
+    for (std::size_t k = 0; k < all_entities[r].size(); ++k)
+      std::copy_n(all_data[r].begin() + static_cast<std::ptrdiff_t>(k) * size, size,
+                  result.begin() + static_cast<std::ptrdiff_t>(all_entities[r][k]) * size);
   return result;
+}
+
+/// @param values [local node][component]
+std::vector<double> collect_nodes(const Space& space, int size, const std::vector<double>& values) {
+  std::vector<int> global;
+  for (int n = 0; n < space.owned_nodes(); ++n) global.push_back(space.global_node(n));
+  return collect(space.mesh().communicator(), global, space.global_bound(), size, values);
+}
+
+std::vector<double> numbers(const std::vector<char>& flags) { return {flags.begin(), flags.end()}; }
+
+/// What was decided about a field's cut (FieldCut::Memory), [cell of the whole mesh][decision, held].
+std::vector<double> collect_decisions(const FieldEntry& entry) {
+  const Mesh& mesh = *entry.mesh;
+  const FieldCut::Memory memory = entry.cut->memory();
+  std::vector<int> global;
+  std::vector<double> values;
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    global.push_back(mesh.global_cell(c));
+    values.push_back(memory.decision.empty() ? 0 : memory.decision[c]);
+    values.push_back(memory.held.empty() ? 0 : memory.held[c]);
+  }
+  return collect(mesh.communicator(), global, static_cast<int>(mesh.owner_of_global_cell().size()), 2,
+                 values);
+}
+
+/// @param all as collect_decisions() gives it
+FieldCut::Memory decisions(const Mesh& mesh, const std::vector<double>& all) {
+  FieldCut::Memory memory;
+  bool holds = false;
+  for (int c = 0; c < mesh.cells(); ++c) {
+    const std::size_t at = 2 * static_cast<std::size_t>(mesh.global_cell(c));
+    memory.decision.push_back(static_cast<char>(all[at]));
+    memory.held.push_back(static_cast<char>(all[at + 1]));
+    holds = holds || memory.held.back() != 0;
+  }
+  if (!mesh.communicator().any(holds)) memory.held.clear();
+  return memory;
 }
 
 void write_durably(const std::filesystem::path& file, const std::string& bytes) {
@@ -113,24 +150,30 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   header["step"] = state.step;
   header["step_number"] = state.step_number;
   header["largest"] = state.largest;
+  header["iterations"] = state.iterations;
+  header["rejected_steps"] = state.rejected_steps;
   header["scene_checksum"] = checksum(scene_text);
   // Series are no JSON: they may be infinite, as a gap is where nothing is opposite.
   header["times"] = state.results.time.size();
   header["series"] = nlohmann::json::array();
   std::vector<double> payload = state.results.time;
+  const auto append = [&](const std::vector<double>& values) {
+    payload.insert(payload.end(), values.begin(), values.end());
+  };
   for (const auto& [name, values] : state.results.series) {
     header["series"].push_back({{"name", name}, {"size", values.size()}});
-    payload.insert(payload.end(), values.begin(), values.end());
+    append(values);
   }
   for (const FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
       Block& block = entry.field->blocks()[b];
       header["blocks"].push_back(describe(entry, b));
-      for (const std::vector<double>* level : block.now.levels()) {
-        const auto values = collect(block, *level);
-        payload.insert(payload.end(), values.begin(), values.end());
-      }
+      for (const std::vector<double>* level : block.now.levels())
+        append(collect_nodes(*block.space, block.size, *level));
+      append(collect_nodes(*block.space, 1, numbers(block.known)));
     }
+  for (const FieldEntry& entry : problem.fields())
+    if (entry.cut) append(collect_decisions(entry));
   if (problem.communicator().rank() == 0) {
     // Aligns the doubles that follow.
     std::string text = header.dump();
@@ -162,7 +205,9 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   state.time = header["time"];
   state.step = header["step"];
   state.step_number = header["step_number"];
-  state.largest = header.value("largest", std::vector<double>());
+  state.largest = header["largest"].get<std::vector<double>>();
+  state.iterations = header["iterations"].get<std::vector<int>>();
+  state.rejected_steps = header["rejected_steps"];
   state.results.time = take(header["times"]);
   for (const auto& series : header["series"]) state.results.series[series["name"]] = take(series["size"]);
   for (FieldEntry& entry : problem.fields())
@@ -181,9 +226,17 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
                       block.size, level->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
       }
       block.old = block.now;
-      block.known.assign(block.known.size(), 1);
+      const std::vector<double> known = take(static_cast<std::size_t>(block.space->global_bound()));
+      for (int n = 0; n < block.space->nodes(); ++n)
+        block.known[n] = static_cast<char>(known[block.space->global_node(n)]);
       entry.field->set_layout(nullptr);
     }
+  for (FieldEntry& entry : problem.fields())
+    if (entry.cut)
+      entry.cut->recall(
+          decisions(*entry.mesh,
+                    take(2 * static_cast<std::size_t>(entry.mesh->owner_of_global_cell().size()))),
+          state.time);
   return state;
 }
 

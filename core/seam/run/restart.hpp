@@ -16,6 +16,8 @@ struct RunState {
   long step_number = 0;
   Results results;              ///< recorded so far
   std::vector<double> largest;  ///< sizes of states so far, see time_error()
+  std::vector<int> iterations;  ///< of Newton's method in each step that was taken
+  long rejected_steps = 0;      ///< steps that failed and were taken again, shorter
 };
 
 /// Writes the states of all fields and `state` as one file, by global node numbers, so that any number of

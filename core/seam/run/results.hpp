@@ -13,10 +13,18 @@ struct Results {
   std::map<std::string, std::vector<double>> series;  ///< as long as `time`
   std::map<std::string, double> once;                 ///< error norms, counts: known at the end only
 
-  /// Value of a series at the recorded time nearest to `at`, or of a number known at the end.
+  /// Value of a series at the end, or of a number known at the end.
+  /// @throws Error listing the nearest known name
+  [[nodiscard]] double value(const std::string& name) const;
+  /// Value of a series at a time, linear between steps; of a number known at the end, that. No number at a
+  /// time before or after those of the run.
   /// @throws Error listing the nearest known name
   [[nodiscard]] double value(const std::string& name, double at) const;
   [[nodiscard]] std::vector<std::string> names() const;
 };
+
+/// @throws Error where the last value of a series is no number; infinite ones are, as the gap is where
+/// nothing lies opposite
+void check_numbers(const Results& results);
 
 }  // namespace seam

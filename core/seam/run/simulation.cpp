@@ -12,7 +12,6 @@
 #include "seam/run/derived.hpp"
 #include "seam/run/error_norms.hpp"
 #include "seam/run/progress.hpp"
-#include "seam/run/time_error.hpp"
 
 namespace seam {
 
@@ -42,10 +41,11 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   problem_.finish(stepper_.start(), solver.object("newton").boolean("shape_derivatives"));
   linear_ = registry.create<LinearSolver>("linear_solver", solver.object("linear"));
   const Parameters& newton = solver.object("newton");
-  newton_ = std::make_unique<Newton>(
+  step_ = std::make_unique<TimeStep>(
       problem_, *linear_,
       NewtonOptions{newton.number("tolerance"), newton.number("increment_tolerance"),
-                    static_cast<int>(newton.integer("maximum_iterations")), newton.boolean("damping")});
+                    static_cast<int>(newton.integer("maximum_iterations")), newton.boolean("damping")},
+      stepper_);
   for (const auto& [name, parameters] : scene.root.object("output").map("probes"))
     probes_.emplace_back(name, parameters, problem_);
   timings_.setup = watch.seconds();
@@ -179,6 +179,11 @@ void Simulation::build_couplings(const Registry& registry) {
     interfaces[name] = {interface->build(setup), setup.sides};
     problem_.name_interface(name, interfaces[name].parts);
   }
+  std::vector<Coupling::Neighbour> neighbours;
+  for (const auto& [parameters, coupling] : couplings)
+    for (const auto& [name, interface] : interfaces_)
+      if (name == parameters.text("on")) neighbours.push_back({parameters, interface->fields()});
+  for (std::size_t k = 0; k < couplings.size(); ++k) couplings[k].second->check_beside(neighbours, k);
   for (const auto& [parameters, coupling] : couplings) {
     const Built& built = interfaces.at(parameters.text("on"));
     try {
@@ -221,25 +226,37 @@ void Simulation::start(const RunOptions& options) {
   for (const std::string& warning : damaged)
     if (communicator_.rank() == 0) fmt::print(stderr, "warning: {}; an older one is used\n", warning);
   const bool resumed = !point.empty();
-  if (stepper_.two_steps()) problem_.keep_mean_rates();
-  fresh_rates_ = !stepper_.is_static() && problem_.needs_fresh_rates(stepper_.theta());
   if (resumed) {
     state_ = read_restart(point, problem_);
+    step_->set_largest(state_.largest);
     problem_.update_spaces(time_point(state_.time, 0, stepper_.theta()));
   } else {
     state_.time = stepper_.start();
     state_.step = stepper_.initial();
     problem_.initialise(stepper_.start(), !stepper_.is_static());
     problem_.update_spaces(time_point(stepper_.start(), 0, stepper_.theta()));
-    if (!stepper_.is_static() && problem_.needs_initial_rates(stepper_.theta()))
-      newton_->solve_initial_rates(stepper_.start());
+    step_->start();
   }
+  warn(options);
   open_outputs(resumed ? state_.time : -1.0);
   if (communicator_.rank() == 0) std::filesystem::create_directories(folder_);
   if (resumed) return;
   const TimePoint at = time_point(stepper_.start(), 0, stepper_.theta());
   problem_.assembler().assemble(at, false);
   record(at);
+}
+
+/// What only the built problem shows.
+void Simulation::warn(const RunOptions& options) {
+  std::vector<Diagnostic> conflicts = problem_.find_conflicts(stepper_.start());
+  for (Diagnostic& later : problem_.find_conflicts(stepper_.end()))
+    if (std::ranges::none_of(conflicts,
+                             [&](const Diagnostic& d) { return d.where.text() == later.where.text(); }))
+      conflicts.push_back(std::move(later));
+  for (Diagnostic& conflict : conflicts)
+    warnings_.warning(std::move(conflict.where), std::move(conflict.message));
+  if (communicator_.rank() == 0 && !options.quiet && !warnings_.all().empty())
+    fmt::print(stderr, "{}\n", warnings_.text());
 }
 
 void Simulation::open_outputs(double resume_time) {
@@ -267,14 +284,13 @@ const Results& Simulation::run(const RunOptions& options) {
     if (options.stop_after && taken++ == *options.stop_after) break;
     const double from = state_.time, until = stepper_.target(from, step);
     if (try_step(until)) {
-      step = stepper_.after_success(until, step, until - from, last_time_error_,
-                                    static_cast<int>(reports_.back().history.size()) - 1);
+      step = stepper_.after_success(until, step, until - from, step_->error(), reports_.back().iterations());
       state_.step = step;
       if (restart_due()) save_restart();
       show_progress(options, run_watch_.seconds());
       continue;
     }
-    ++rejected_steps_;
+    ++state_.rejected_steps;
     const std::optional<double> shorter = stepper_.after_failure(until - from);
     if (!shorter)
       throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", from,
@@ -303,59 +319,51 @@ void Simulation::record_failure(const std::string& reason) {
   save_restart();
 }
 
-TimePoint Simulation::step_to(double until) const {
-  const double step = stepper_.is_static() ? 0 : until - state_.time;
+double Simulation::last_step() const {
   const std::vector<double>& times = state_.results.time;
-  double theta = stepper_.theta();
-  if (stepper_.two_steps())
-    theta = two_step_theta(step, times.size() > 1 ? times.back() - times[times.size() - 2] : 0);
-  else if (state_.step_number == 0 && problem_.constrains_rates())
-    theta = 1;
-  return time_point(until, step, theta);
+  return times.size() > 1 ? times.back() - times[times.size() - 2] : 0;
 }
 
 /// One step to the time `until`; leaves everything as it was when it fails.
 bool Simulation::try_step(double until) {
-  if (fresh_rates_) newton_->solve_initial_rates(state_.time);
-  const Problem::Snapshot before = problem_.snapshot();
-  const TimePoint at = step_to(until);
-  problem_.begin_step(at);
-  const auto refuse = [&](const Error& error) {
-    problem_.restore(before);
-    reports_.emplace_back().reason = error.what();
-    return false;
+  const auto keep_report = [&](const std::string& reason) {
+    reports_.push_back(step_->report());
+    timings_.linear += reports_.back().linear_seconds;
+    if (reason.empty()) return;
+    reports_.back().converged = false;
+    reports_.back().reason = reason;
   };
   try {
-    reports_.push_back(newton_->solve(at));
+    step_->begin(state_.time, until, last_step());
+    while (step_->iterate()) continue;
+    keep_report(step_->report().reason);
   } catch (const StepRefused& refused) {
-    return refuse(refused);
+    keep_report(refused.what());
   } catch (const SingularMatrix& singular) {
+    keep_report(singular.what());
+    step_->rewind();
     // What has been held so far is lost on a state that iterations went astray to, as where a body snaps
     // through.
-    if (state_.step_number > 0) return refuse(singular);
-    problem_.restore(before);
+    if (state_.step_number > 0) return false;
     throw;
   } catch (...) {
-    problem_.restore(before);
+    step_->rewind();
     throw;
   }
-  timings_.linear += reports_.back().linear_seconds;
-  if (!reports_.back().converged) {
-    problem_.restore(before);
-    return false;
-  }
-  last_time_error_ = 0;
-  if (stepper_.adaptive() && !stepper_.is_static())
-    last_time_error_ = time_error(problem_, at.step, state_.largest);
-  if (stepper_.too_inaccurate(last_time_error_, until - state_.time)) {
+  if (reports_.back().converged && stepper_.too_inaccurate(step_->error(), until - state_.time)) {
     reports_.back().converged = false;
-    reports_.back().reason = fmt::format("its error in time is {:.1e}", last_time_error_);
-    problem_.restore(before);
+    reports_.back().reason = fmt::format("its error in time is {:.1e}", step_->error());
+  }
+  if (!reports_.back().converged) {
+    step_->rewind();
     return false;
   }
+  step_->accept();
   state_.time = until;
   ++state_.step_number;
-  record(at);
+  state_.iterations.push_back(reports_.back().iterations());
+  state_.largest = step_->largest();
+  record(step_->at());
   return true;
 }
 
@@ -364,6 +372,7 @@ void Simulation::record(const TimePoint& at) {
   state_.results.time.push_back(state_.time);
   for (const Probe& probe : probes_) probe.record(problem_, at, state_.results);
   record_integrals(problem_, at, state_.results);
+  check_numbers(state_.results);
   record_formulas(scene_, state_.results);
   const long every = scene_.root.object("output").integer("every");
   const bool last = state_.time >= stepper_.end();
@@ -414,18 +423,19 @@ void Simulation::finish_errors() {
     if (norms.h1) state_.results.once[name + ".h1"] = *norms.h1;
   }
   finish_statistics(scene_, state_.results);
-  std::vector<double> iterations;
   int most_linear = 0, frozen = 0;
   for (const NewtonReport& report : reports_) {
     if (report.frozen && report.converged) ++frozen;
-    iterations.push_back(static_cast<double>(report.history.size()) - 1);
     for (const NewtonIteration& iteration : report.history)
       most_linear = std::max(most_linear, iteration.linear_iterations);
   }
+  std::vector<int> iterations = state_.iterations;
   std::sort(iterations.begin(), iterations.end());
   state_.results.once["newton.iterations.median"] =
       iterations.empty() ? 0 : iterations[iterations.size() / 2];
   state_.results.once["newton.iterations.most"] = iterations.empty() ? 0 : iterations.back();
+  state_.results.once["steps.taken"] = static_cast<double>(state_.iterations.size());
+  state_.results.once["steps.rejected"] = static_cast<double>(state_.rejected_steps);
   state_.results.once["newton.frozen_steps"] = frozen;
   state_.results.once["linear.iterations.most"] = most_linear;
   state_.results.once["unknowns"] = static_cast<double>(unknowns());
@@ -436,8 +446,7 @@ long long Simulation::unknowns() { return problem_.assembler().matrix().global_r
 void Simulation::show_progress(const RunOptions& options, double seconds) const {
   if (options.quiet || communicator_.rank() != 0) return;
   const double done = (state_.time - stepper_.start()) / (stepper_.end() - stepper_.start());
-  print_progress(
-      {state_.step_number, state_.time, static_cast<int>(reports_.back().history.size()) - 1, done, seconds});
+  print_progress({state_.step_number, state_.time, reports_.back().iterations(), done, seconds});
 }
 
 }  // namespace seam

@@ -17,8 +17,8 @@
 #include "seam/run/probes.hpp"
 #include "seam/run/restart.hpp"
 #include "seam/run/stepper.hpp"
+#include "seam/run/time_step.hpp"
 #include "seam/scene/scene.hpp"
-#include "seam/solve/newton.hpp"
 
 namespace seam {
 
@@ -54,8 +54,10 @@ class Simulation {
   [[nodiscard]] long step_number() const { return state_.step_number; }
   /// Of the last good state.
   [[nodiscard]] double time() const { return state_.time; }
-  /// Newton histories of all steps.
-  [[nodiscard]] const std::vector<NewtonReport>& newton_reports() const { return reports_; }
+  /// Length of the last step that was taken, s; 0 when there is none.
+  [[nodiscard]] double last_step() const;
+  /// To take single steps from the last good state without a record of them.
+  [[nodiscard]] TimeStep& time_step() { return *step_; }
   [[nodiscard]] long long unknowns();
   /// The machine-readable record of the run: residual histories, times, memory, versions, checks.
   [[nodiscard]] nlohmann::json summary(const std::vector<CheckResult>& checks);
@@ -66,9 +68,9 @@ class Simulation {
   [[nodiscard]] std::vector<double> cell_costs(const std::string& mesh) const;
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
+  void warn(const RunOptions& options);
   void open_outputs(double resume_time);
   bool try_step(double until);
-  [[nodiscard]] TimePoint step_to(double until) const;
   void record(const TimePoint& at);
   void write_fields(const TimePoint& at);
   void write_results();
@@ -84,23 +86,21 @@ class Simulation {
   std::vector<std::pair<std::string, std::unique_ptr<Interface>>> interfaces_;
   Problem problem_;
   std::unique_ptr<LinearSolver> linear_;
-  std::unique_ptr<Newton> newton_;
   Stepper stepper_;
+  std::unique_ptr<TimeStep> step_;
   RunState state_;
   std::vector<Probe> probes_;
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<CutOutput> cut_;
   std::unique_ptr<InterfaceOutput> points_;
   std::filesystem::path folder_;
-  std::vector<NewtonReport> reports_;
+  std::vector<NewtonReport> reports_;  ///< of all steps, those that were rewound among them
   Stopwatch run_watch_, series_watch_;
   Timings timings_;
   TimePoint last_point_;   ///< of the last good state
   long last_fields_ = -1;  ///< step number of the fields written last
+  Diagnostics warnings_;   ///< of what is legal but hardly meant
   std::string failure_;    ///< why the run ended early, "" if it did not
-  double last_time_error_ = 0;
-  long rejected_steps_ = 0;
-  bool fresh_rates_ = false;  ///< rates follow from the balance at the start of each step
 };
 
 /// Reads and distributes the meshes a scene names. Exposed for `seam check`.

@@ -72,15 +72,16 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["ranks"] = communicator_.size();
   s["unknowns"] = unknowns();
   s["steps"] = state_.step_number;
-  s["rejected_steps"] = rejected_steps_;
+  s["rejected_steps"] = state_.rejected_steps;
   s["seconds"] = {{"setup", timings_.setup},       {"cut", timings_.cut},       {"pattern", timings_.pattern},
                   {"assembly", timings_.assembly}, {"linear", timings_.linear}, {"output", timings_.output},
                   {"total", timings_.total}};
   s["peak_memory_bytes"] = communicator_.sum(peak_memory());
   s["newton"] = histories(reports_);
   s["results"] = nlohmann::json::object();
-  for (const std::string& name : state_.results.names())
-    s["results"][name] = state_.results.value(name, stepper_.end());
+  for (const std::string& name : state_.results.names()) s["results"][name] = state_.results.value(name);
+  s["warnings"] = nlohmann::json::array();
+  for (const Diagnostic& warning : warnings_.all()) s["warnings"].push_back(warning.text());
   s["checks"] = nlohmann::json::array();
   for (const CheckResult& c : checks) {
     s["checks"].push_back({{"that", c.that},

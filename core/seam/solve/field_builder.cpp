@@ -178,7 +178,7 @@ void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const T
 void FieldBuilder::fix_level(const std::string& unknown, double value,
                              std::vector<std::string> open_boundaries) {
   const Field::Place place = entry_.field->place(unknown);
-  entry_.levels.push_back({place.block, place.offset, value, std::move(open_boundaries), {}});
+  entry_.levels.push_back({unknown, place.block, place.offset, value, std::move(open_boundaries), {}});
 }
 
 void FieldBuilder::prescribe(const std::string& boundary, const std::string& unknown, int component,
@@ -228,12 +228,16 @@ Moments FieldBuilder::moments() const {
   Field carrier("moments", mesh, {});
   const CellDomain cells(carrier, 2 * mesh.order() + 2);
   Element element;
-  // Volume, first and second moments about the origin, summed over all ranks.
+  // Volume, first and second moments summed over all ranks, about a point of the body: about the origin those
+  // of a body far from it would be differences of large numbers.
+  const double* about = mesh.whole().coordinates.data();
   std::vector<double> sums(1 + 3 + 9, 0.0);
   for (int e = 0; e < cells.size(); ++e) {
     cells.fill(e, element);
     for (int q = 0; q < element.points; ++q) {
-      const double* x = &element.sides[0].position[static_cast<std::size_t>(q) * dim];
+      double x[3] = {0, 0, 0};
+      for (int i = 0; i < dim; ++i)
+        x[i] = element.sides[0].position[static_cast<std::size_t>(q) * dim + i] - about[i];
       sums[0] += element.weight[q];
       for (int i = 0; i < dim; ++i) {
         sums[1 + i] += element.weight[q] * x[i];
@@ -247,6 +251,7 @@ Moments FieldBuilder::moments() const {
   for (int i = 0; i < 3; ++i) m.centre[i] = sums[1 + i] / m.volume;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) m.second[i][j] = sums[4 + 3 * i + j] - m.volume * m.centre[i] * m.centre[j];
+  for (int i = 0; i < dim; ++i) m.centre[i] += about[i];
   return m;
 }
 

@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-constexpr double rounding = 1e-13;  ///< relative residual that cannot be lowered
+constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
 /// Part of a value that counts as its change in the step: in a steady state increments are noise.
 constexpr double steady_part = 1e-6;
 /// Iterations in which unknowns may come and go; then they may only come, lest a step cycle between two sets
@@ -29,14 +29,21 @@ double remainder(double increment, double before) {
 }  // namespace
 
 /// Sizes of the residual and of the last increment, each for the unknown where it is largest.
-Newton::Size Newton::measure(const std::vector<double>& increment, double factor) const {
+Newton::Size Newton::measure(const std::vector<double>& increment, double factor,
+                             const std::vector<double>& rounding) const {
   Size size;
+  size.at_rounding = true;
   Assembler& assembler = problem_.assembler();
+  if (!assembler.is_finite()) {
+    size.residual = std::numeric_limits<double>::quiet_NaN();
+    return size;
+  }
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
       const Field::Place place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
-      std::vector<double> sums(4, 0.0);  // squares of residual, magnitude, increment, change in the step
+      // Squares of residual, magnitude, increment, change in the step, rounding.
+      std::vector<double> sums(5, 0.0);
       for (int node = 0; node < block.space->owned_nodes(); ++node) {
         const int row = assembler.row(*entry.field, place.block, node, place.offset);
         if (row < 0) continue;
@@ -47,22 +54,37 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
           if (!increment.empty()) sums[2] += std::pow(factor * increment[row + c], 2);
           const double change = std::abs(block.now.value[i] - block.old.value[i]);
           sums[3] += std::pow(change + steady_part * std::abs(block.now.value[i]), 2);
+          if (!rounding.empty()) sums[4] += std::pow(rounding[row + c], 2);
         }
       }
       problem_.communicator().sum(sums);
-      const std::string name = entry.name + "." + unknown.name;
-      if (!std::isfinite(sums[0])) return {sums[0], name, size.increment};
+      const double residual = std::sqrt(sums[0]), least = std::sqrt(sums[4]) / options_.tolerance,
+                   scale = std::max(std::sqrt(sums[1]), least);
       // Without any contribution the unknown's equations hold.
-      const double relative = sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
-      if (size.worst.empty() || relative > size.residual) size = {relative, name, size.increment};
+      const double relative = scale > 0 ? residual / scale : 0.0;
+      if (size.worst.empty() || relative > size.residual) {
+        size.residual = relative;
+        size.worst = entry.name + "." + unknown.name;
+      }
       // At the rounding error of its equations an unknown's increments are noise.
-      if (relative > rounding && sums[3] > 0)
-        size.increment = std::max(size.increment, std::sqrt(sums[2] / sums[3]));
+      if (relative <= rounding_error || (!rounding.empty() && residual <= std::sqrt(sums[4]))) continue;
+      size.at_rounding = false;
+      if (sums[3] > 0) size.increment = std::max(size.increment, std::sqrt(sums[2] / sums[3]));
     }
   return size;
 }
 
-bool Newton::cycles(const std::vector<NewtonIteration>& history) const {
+/// Measures the present state. What nothing acts on has a residual of rounding errors that no force beside it
+/// makes look small: where the residual does not fall, these errors are estimated.
+Newton::Size Newton::measure_with_rounding(const NewtonIteration& entry) const {
+  Size size = measure(increment_, entry.damping);
+  const bool stays = starts_ || size.residual > 0.5 * size_.residual;
+  if (!std::isfinite(size.residual) || size.residual <= options_.tolerance || !stays) return size;
+  return measure(increment_, entry.damping, problem_.assembler().rounding());
+}
+
+bool Newton::cycles() const {
+  const std::vector<NewtonIteration>& history = report_.history;
   const std::size_t patience = freezes_ == 0 ? 3 : 1;  // iterations without progress against those two before
   if (history.size() < freed_ + (freezes_ == 0 ? free_iterations : 0) + patience + 3) return false;
   for (std::size_t k = history.size() - patience; k < history.size(); ++k)
@@ -70,17 +92,17 @@ bool Newton::cycles(const std::vector<NewtonIteration>& history) const {
   return true;
 }
 
-void Newton::freeze(TimePoint& at, bool frozen, std::size_t iteration) {
-  at.frozen = frozen_ = frozen;
+void Newton::freeze(bool frozen) {
+  at_.frozen = frozen_ = frozen;
   if (frozen) {
     ++freezes_;
     since_freezing_ = 0;
   } else {
-    freed_ = iteration;
+    freed_ = report_.history.size();
   }
 }
 
-double Newton::distance(const std::vector<double>& increment, double factor) const {
+double Newton::distance(double factor) const {
   double most = 0;
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
@@ -91,114 +113,135 @@ double Newton::distance(const std::vector<double>& increment, double factor) con
         for (int c = 0; c < place.components; ++c)
           if (const int row = problem_.assembler().row(*entry.field, place.block, node, place.offset + c);
               row >= 0)
-            most = std::max(most, std::abs(factor * increment[row]));
+            most = std::max(most, std::abs(factor * increment_[row]));
     }
   return problem_.communicator().max(most);
 }
 
-NewtonReport Newton::solve(const TimePoint& step) {
-  NewtonReport report;
-  TimePoint at = step;
+void Newton::begin(const TimePoint& step) {
+  at_ = step;
+  report_ = {};
+  increment_.clear();
+  size_ = {};
+  iteration_ = 0;
+  starts_ = true;
   frozen_ = false;
   freezes_ = 0;
   freed_ = 0;
-  double far = std::numeric_limits<double>::infinity();  // m, for bodies on a frozen cut
-  std::vector<double> increment;
-  Size size;
-  bool starts = true;  // at states without an increment that led there
-  for (int iteration = 0;; ++iteration) {
-    NewtonIteration& entry = report.history.emplace_back();
-    if (starts) {
-      entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
-      problem_.assembler().assemble(at, true);
-      increment.clear();
-      starts = false;
-    } else if (!take(at, increment, size, entry)) {
-      report.reason =
-          fmt::format("no part of the increment of iteration {} leads to an admissible state", iteration);
-      return report;
-    }
-    if (frozen_ && !increment.empty()) since_freezing_ += distance(increment, entry.damping);
-    // After a renumbering the increment's rows mean nothing any more.
-    if (entry.space_changed) increment.clear();
-    const Size last = size;
-    size = measure(increment, entry.damping);
-    entry.residual = size.residual;
-    entry.worst = size.worst;
-    entry.increment = size.increment;
-    if (!std::isfinite(size.residual)) {
-      report.reason = fmt::format("the residual of {} is not finite at the start of the step", size.worst);
-      return report;
-    }
-    // A residual that was small and does not fall any more is at rounding error: so are the increments.
-    const bool at_rounding =
-        size.residual <= rounding || (iteration > 0 && last.residual <= options_.tolerance &&
-                                      !entry.space_changed && size.residual > 0.5 * last.residual);
-    const bool settled =
-        at_rounding || remainder(size.increment, last.increment) <= options_.increment_tolerance;
-    if (size.residual <= options_.tolerance && settled && !entry.space_changed &&
-        !problem_.assembler().prescribed_pending()) {
-      if (frozen_ && freezes_ == 1 && iteration < options_.maximum_iterations) {
-        freeze(at, false, report.history.size());
-        starts = true;
-        continue;
-      }
-      report.converged = !frozen_ || since_freezing_ <= far;
-      report.frozen = frozen_;
-      if (!report.converged)
-        report.reason = fmt::format(
-            "iterations cycle, and without an update of the cut bodies go on by {:.2g} m, more than {:.2g} m",
-            since_freezing_, far);
-      return report;
-    }
-    if (iteration == options_.maximum_iterations) {
-      report.reason =
-          fmt::format("not converged after {} iterations: relative residual {:.2e} of {}, tolerance {:.0e}",
-                      iteration, size.residual, size.worst, options_.tolerance);
-      return report;
-    }
-    if (iteration >= free_iterations) problem_.hold_spaces();
-    if (!frozen_ && problem_.is_cut() && cycles(report.history)) {
-      far = 0.01 * problem_.smallest_cut_cell();
-      freeze(at, true, report.history.size());
-      problem_.assembler().assemble(at, true);
-    }
-    SolveReport linear;
-    solve_linear(increment, linear);
-    entry.linear_iterations = linear.iterations;
-    entry.linear_residual = linear.relative_residual;
-    report.linear_seconds += linear.setup_seconds + linear.solve_seconds;
+  far_ = std::numeric_limits<double>::infinity();
+}
+
+NewtonReport Newton::solve(const TimePoint& step) {
+  begin(step);
+  while (iterate()) continue;
+  return report_;
+}
+
+bool Newton::fail(std::string reason) {
+  report_.reason = std::move(reason);
+  return false;
+}
+
+bool Newton::iterate() {
+  NewtonIteration& entry = report_.history.emplace_back();
+  const bool starts = starts_;
+  if (starts) {
+    entry.space_changed = problem_.update_spaces(at_) == SpaceChange::unknowns;
+    problem_.assembler().assemble(at_, true);
+    increment_.clear();
+  } else if (!take(entry)) {
+    return fail(fmt::format("no part of the increment of iteration {} leads to an admissible state{}",
+                            iteration_, not_finite_));
   }
+  if (frozen_ && !increment_.empty()) since_freezing_ += distance(entry.damping);
+  // After a renumbering the increment's rows mean nothing any more.
+  if (entry.space_changed) increment_.clear();
+  const Size last = size_;
+  size_ = measure_with_rounding(entry);
+  starts_ = false;
+  entry.residual = size_.residual;
+  entry.worst = size_.worst;
+  entry.increment = size_.increment;
+  if (!std::isfinite(size_.residual))
+    return fail("at the start of the step" + problem_.assembler().describe_not_finite(at_));
+  if (converged(entry, last)) return finish();
+  if (iteration_ == options_.maximum_iterations)
+    return fail(fmt::format(
+        "not converged after {} iterations: relative residual {:.2e} of {} (tolerance {:.0e}), relative "
+        "increment {:.2e} (tolerance {:.0e})",
+        iteration_, size_.residual, size_.worst, options_.tolerance, size_.increment,
+        options_.increment_tolerance));
+  if (iteration_ >= free_iterations) problem_.hold_spaces();
+  if (!frozen_ && problem_.is_cut() && cycles()) {
+    far_ = 0.01 * problem_.smallest_cut_cell();
+    freeze(true);
+    problem_.assembler().assemble(at_, true);
+  }
+  SolveReport linear;
+  solve_linear(increment_, linear);
+  entry.linear_iterations = linear.iterations;
+  entry.linear_residual = linear.relative_residual;
+  report_.linear_seconds += linear.setup_seconds + linear.solve_seconds;
+  ++iteration_;
+  return true;
+}
+
+bool Newton::converged(const NewtonIteration& entry, const Size& last) const {
+  // A residual that was small and does not fall any more is at rounding error: so are the increments.
+  const bool stalls = iteration_ > 0 && last.residual <= options_.tolerance && !entry.space_changed &&
+                      size_.residual > 0.5 * last.residual;
+  const bool settled = size_.at_rounding || stalls ||
+                       remainder(size_.increment, last.increment) <= options_.increment_tolerance;
+  return size_.residual <= options_.tolerance && settled && !entry.space_changed &&
+         !problem_.assembler().prescribed_pending();
+}
+
+/// What has converged counts if the cut has followed it, or need not. @return true to go on
+bool Newton::finish() {
+  if (frozen_ && freezes_ == 1 && iteration_ < options_.maximum_iterations) {
+    freeze(false);
+    starts_ = true;
+    ++iteration_;
+    return true;
+  }
+  report_.converged = !frozen_ || since_freezing_ <= far_;
+  report_.frozen = frozen_;
+  if (report_.converged) return false;
+  return fail(fmt::format(
+      "iterations cycle, and without an update of the cut bodies go on by {:.2g} m, more than {:.2g} m",
+      since_freezing_, far_));
 }
 
 /// Adds the increment, or a part of it, lets spaces follow and assembles there. False when no part is
 /// admissible.
-bool Newton::take(const TimePoint& at, const std::vector<double>& increment, const Size& size_before,
-                  NewtonIteration& entry) {
+bool Newton::take(NewtonIteration& entry) {
   constexpr double blow_up = 1e4;
-  const Problem::Snapshot before = problem_.snapshot();
-  for (entry.damping = 1; entry.damping > 1e-3; entry.damping /= 2) {
-    problem_.assembler().add_increment(increment, entry.damping);
-    problem_.update_rates(at);
-    if (follow(at, entry)) {
-      problem_.assembler().assemble(at, true);
+  constexpr double least = 1e-3;
+  const Problem::Snapshot before = problem_.iterate(at_);
+  not_finite_.clear();
+  for (entry.damping = 1; entry.damping > least; entry.damping /= 2) {
+    problem_.assembler().add_increment(increment_, entry.damping);
+    problem_.update_rates(at_);
+    if (follow(entry)) {
+      problem_.assembler().assemble(at_, true);
       const double size = measure({}, 0).residual;
-      const bool much_larger =
-          size_before.residual > 0 && size > blow_up * size_before.residual && size > 1e-3;
+      const bool much_larger = size_.residual > 0 && size > blow_up * size_.residual && size > 1e-3;
       if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
+      if (!std::isfinite(size) && (!options_.damping || entry.damping / 2 <= least))
+        not_finite_ = ": there" + problem_.assembler().describe_not_finite(at_);
     }
     if (!options_.damping) return false;
     problem_.restore(before);
-    if (!frozen_) problem_.update_spaces(at);  // and with them the numbering that the increment has
+    if (!frozen_) problem_.update_spaces(at_);  // and with them the numbering that the increment has
   }
   return false;
 }
 
 /// Lets spaces follow the state. False when bodies moved too far for that; a part of the way may do.
-bool Newton::follow(const TimePoint& at, NewtonIteration& entry) {
+bool Newton::follow(NewtonIteration& entry) {
   if (frozen_) return true;
   try {
-    entry.space_changed = problem_.update_spaces(at) == SpaceChange::unknowns;
+    entry.space_changed = problem_.update_spaces(at_) == SpaceChange::unknowns;
     return true;
   } catch (const StepRefused&) {
     if (!options_.damping) throw;

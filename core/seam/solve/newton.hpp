@@ -37,6 +37,8 @@ struct NewtonReport {
   bool frozen = false;  ///< the cut was not updated in the last iterations, see Newton::solve
   std::vector<NewtonIteration> history;
   double linear_seconds = 0;
+  /// Linear systems solved on the way to the last state.
+  [[nodiscard]] int iterations() const { return history.empty() ? 0 : static_cast<int>(history.size()) - 1; }
 };
 
 /// Newton's method for one step, with an exact tangent (thesis 2.3, (2.126)-(2.128)).
@@ -52,36 +54,59 @@ class Newton {
   Newton(Problem& problem, LinearSolver& solver, NewtonOptions options)
       : problem_(problem), solver_(solver), options_(options) {}
 
-  /// Solves for the states at the end of the step. On failure the states are left as they are: rewind them.
-  /// @throws Error when the system is singular, naming the field that is not held
+  /// Begins a step whose states the problem has predicted.
+  void begin(const TimePoint& step);
+  /// Takes one iteration. On failure the states are left as they are: rewind them.
+  /// @return true while there is something left to do; then report() says how it went
+  /// @throws SingularMatrix when the system is singular, naming the field that is not held
+  /// @throws StepRefused when bodies move too far for the step
+  bool iterate();
+  [[nodiscard]] const NewtonReport& report() const { return report_; }
+  /// Iterates to the end of the step.
   NewtonReport solve(const TimePoint& step);
   /// Solves for the rates that the initial values imply (needed by theta < 1).
   void solve_initial_rates(double time);
 
  private:
   struct Size {
-    double residual = 0;
+    double residual = 0;  ///< largest of the unknowns' relative residuals; not finite if something is not
     std::string worst;
     double increment = 0;
+    bool at_rounding = false;  ///< every unknown's residual is what the rounding of its equations leaves
   };
   /// @param increment what was added last, times `factor`; empty at the start of a step
-  [[nodiscard]] Size measure(const std::vector<double>& increment, double factor) const;
-  bool take(const TimePoint& at, const std::vector<double>& increment, const Size& before,
-            NewtonIteration& entry);
-  bool follow(const TimePoint& at, NewtonIteration& entry);
+  /// @param rounding [owned row], see Assembler::rounding(); empty: not looked at
+  [[nodiscard]] Size measure(const std::vector<double>& increment, double factor,
+                             const std::vector<double>& rounding = {}) const;
+  Size measure_with_rounding(const NewtonIteration& entry) const;
+  bool fail(std::string reason);
+  [[nodiscard]] bool converged(const NewtonIteration& entry, const Size& last) const;
+  bool finish();
+  bool take(NewtonIteration& entry);
+  bool follow(NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
   /// Whether iterations repeat themselves instead of converging.
-  [[nodiscard]] bool cycles(const std::vector<NewtonIteration>& history) const;
-  void freeze(TimePoint& at, bool frozen, std::size_t iteration);
+  [[nodiscard]] bool cycles() const;
+  void freeze(bool frozen);
   /// How far the last increment moved anything, m.
-  [[nodiscard]] double distance(const std::vector<double>& increment, double factor) const;
+  [[nodiscard]] double distance(double factor) const;
   Problem& problem_;
   LinearSolver& solver_;
   NewtonOptions options_;
+
+  // Of the step under way.
+  TimePoint at_;
+  NewtonReport report_;
+  std::vector<double> increment_;
+  Size size_;
+  int iteration_ = 0;
+  bool starts_ = true;  ///< at states without an increment that led there
   bool frozen_ = false;
   int freezes_ = 0;
   std::size_t freed_ = 0;      ///< the iteration from which on the cut has followed
   double since_freezing_ = 0;  ///< how far anything has moved, m
+  double far_ = 0;             ///< how far it may, m
+  std::string not_finite_;     ///< what was not in the last state that was tried
 };
 
 /// Names the fields that can move without resistance in the present matrix, one line each; "" if none can.

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "seam/base/stopwatch.hpp"
+#include "seam/interface/begins_steps.hpp"
 #include "seam/solve/field_builder.hpp"
 #include "seam/solve/level.hpp"
 
@@ -104,9 +106,12 @@ void Problem::finish(double time, bool shape_derivatives) {
 /// Unknowns have the rates that couplings read, whatever their physics needs: a body without mass has a
 /// velocity where it meets another field.
 void Problem::carry_rates() {
+  std::set<const IntegrationDomain*> couplings;
+  for (const auto& [name, parts] : interfaces_)
+    for (const InterfacePart& part : parts) couplings.insert(part.domain.get());
   for (const auto& [domain, terms] : domains_) {
     const std::vector<Field*> fields = domain->fields();
-    if (fields.front() == fields.back()) continue;
+    if (fields.front() == fields.back() && !couplings.contains(domain.get())) continue;
     for (const BoundTerm& bound : terms)
       for (const Slot& slot : bound.term->signature(fields.front()->mesh().dimension()).inputs) {
         if (slot.level != Level::rate && slot.level != Level::second_rate) continue;
@@ -249,7 +254,9 @@ void Problem::set_prescribed(double time) {
   }
 }
 
-void Problem::begin_step(const TimePoint& at) {
+void Problem::begin_step(const TimePoint& at, double from) {
+  for (auto& [domain, terms] : domains_)
+    if (auto* remembers = dynamic_cast<BeginsSteps*>(domain.get())) remembers->begin_step(from);
   set_prescribed(at.time);
   for (auto& [domain, terms] : domains_) domain->forget_constants(true);
   for (FieldEntry& entry : fields_)
@@ -313,6 +320,28 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   return change;
 }
 
+std::vector<Problem::LevelFlow> Problem::level_flows() const {
+  std::vector<LevelFlow> flows;
+  std::vector<double> through;
+  for (const FieldEntry& entry : fields_)
+    for (const LevelCondition& level : entry.levels) {
+      const Block& block = entry.field->blocks()[level.block];
+      if (!communicator_.any(!level.nodes.empty())) continue;
+      if (through.empty()) through = assembler_->rounding();
+      LevelFlow& flow = flows.emplace_back(LevelFlow{entry.name, level.unknown, 0, 0});
+      for (int node = 0; node < block.space->owned_nodes(); ++node) {
+        const int row = assembler_->row(*entry.field, level.block, node, level.component);
+        if (row < 0) continue;
+        flow.scale += std::pow(through[row] / std::numeric_limits<double>::epsilon(), 2);
+        if (std::ranges::find(level.nodes, node) != level.nodes.end())
+          flow.flow = std::max(flow.flow, std::abs(assembler_->full_residual()[row]));
+      }
+      flow.flow = communicator_.max(flow.flow);
+      flow.scale = std::sqrt(communicator_.sum(flow.scale));
+    }
+  return flows;
+}
+
 void Problem::keep_mean_rates() {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
@@ -326,24 +355,36 @@ void Problem::hold_spaces() {
     if (entry.cut) entry.cut->hold();
 }
 
-Problem::Snapshot Problem::snapshot() const {
+Problem::Snapshot Problem::snapshot(double time) const { return copy(time, true); }
+
+Problem::Snapshot Problem::iterate(const TimePoint& at) const { return copy(at.time, false); }
+
+Problem::Snapshot Problem::copy(double time, bool with_old) const {
   Snapshot states;
-  for (const FieldEntry& entry : fields_)
+  states.time = time;
+  for (const FieldEntry& entry : fields_) {
+    states.cuts.push_back(entry.cut ? entry.cut->memory() : FieldCut::Memory{});
     for (const Block& block : entry.field->blocks())
-      states.push_back({block.now, block.known, entry.field->sets() > 1 ? block.old : NodalState{},
-                        entry.field->layout()});
+      states.blocks.push_back({block.now, block.known,
+                               with_old || entry.field->sets() > 1 ? block.old : NodalState{},
+                               entry.field->layout()});
+  }
   return states;
 }
 
 void Problem::restore(const Snapshot& states) {
-  std::size_t s = 0;
-  for (FieldEntry& entry : fields_)
+  std::size_t f = 0, s = 0;
+  for (FieldEntry& entry : fields_) {
+    if (entry.cut) entry.cut->recall(states.cuts[f], states.time);
+    ++f;
     for (Block& block : entry.field->blocks()) {
-      block.now = states[s].now;
-      block.known = states[s].known;
-      if (entry.field->sets() > 1) block.old = states[s].old;
-      entry.field->set_layout(states[s++].layout);
+      const BlockSnapshot& state = states.blocks[s++];
+      block.now = state.now;
+      block.known = state.known;
+      if (!state.old.value.empty()) block.old = state.old;
+      entry.field->set_layout(state.layout);
     }
+  }
 }
 
 double two_step_theta(double step, double previous) {

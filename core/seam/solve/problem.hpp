@@ -36,6 +36,7 @@ struct PrescribedCondition {
 /// An unknown whose level is fixed at one node of each connected part of the field that does not reach an
 /// open boundary.
 struct LevelCondition {
+  std::string unknown;
   int block, component;
   double value;
   std::vector<std::string> open_boundaries;
@@ -141,6 +142,9 @@ class Problem {
   /// True when some unknown has a rate, so that time matters.
   [[nodiscard]] bool has_rates() const;
 
+  /// A warning for each two boundaries that prescribe different values of an unknown at a node which both
+  /// have: that of the condition added last counts. Collective, the same on all ranks.
+  [[nodiscard]] std::vector<Diagnostic> find_conflicts(double time) const;
   /// Sets the initial values and rates.
   /// @param impose_prescribed let prescribed unknowns start at their value. Without it, as in a static
   /// problem, they go there in the first step and take the interior along, so that a sudden displacement
@@ -161,7 +165,9 @@ class Problem {
   /// system assembled with TimePoint::initial_rates.
   void add_initial_rates(const std::vector<double>& increment);
   /// Makes the present state the old one, predicts, and sets the prescribed values at the end of the step.
-  void begin_step(const TimePoint& at);
+  /// @param from the time of the present state; a static problem's steps have no length that would tell
+  void begin_step(const TimePoint& at, double from);
+  void begin_step(const TimePoint& at) { begin_step(at, at.time - at.step); }
   /// From now on states keep mean rates, and rates follow from them: with two_step_theta() the backward
   /// difference formula of second order (BDF2). Before the first step.
   void keep_mean_rates();
@@ -170,18 +176,37 @@ class Problem {
   /// Cuts meshes anew, runs the space updates and rebuilds where needed. Collective.
   /// @throws StepRefused when a body moved further than states can be carried
   SpaceChange update_spaces(const TimePoint& at);
+  /// Where the level of an unknown is fixed at a node, as that of the pressure in a closed part of a fluid,
+  /// the node's equation is given up for it. It holds all the same if what is prescribed goes together; what
+  /// is left is the flow that the node takes in or gives out, m^d/s for a velocity.
+  struct LevelFlow {
+    std::string field, unknown;
+    double flow = 0;   ///< largest of the nodes that hold a level
+    double scale = 0;  ///< root of the sum of squares of the flows through all nodes
+  };
+  /// From the last assembly, with its tangent. Collective; empty where no level is fixed.
+  [[nodiscard]] std::vector<LevelFlow> level_flows() const;
   /// From now to the end of the step unknowns of fields that bodies cut may come but not go.
   void hold_spaces();
 
-  /// All states of all fields; what a failed step is rewound to.
+  /// All states of all fields and what was decided about their cuts.
   struct BlockSnapshot {
     NodalState now;
     std::vector<char> known;
-    NodalState old;  ///< only where the sets of nodes may change, which reorders states
+    NodalState old;  ///< empty where it is not kept
     std::shared_ptr<const PartLayout> layout;
   };
-  using Snapshot = std::vector<BlockSnapshot>;
-  [[nodiscard]] Snapshot snapshot() const;
+  struct Snapshot {
+    std::vector<BlockSnapshot> blocks;
+    std::vector<FieldCut::Memory> cuts;  ///< one a field; empty ones where nothing cuts it
+    double time = 0;
+  };
+  /// What a failed step is rewound to, to the bit.
+  /// @param time of the states
+  [[nodiscard]] Snapshot snapshot(double time) const;
+  /// Of the present iteration within a step: without the states at the step's start, but where the sets of
+  /// nodes may change, which reorders states.
+  [[nodiscard]] Snapshot iterate(const TimePoint& at) const;
   void restore(const Snapshot& states);
 
  private:
@@ -190,6 +215,7 @@ class Problem {
   SpaceChange update_cuts(const TimePoint& at);
   void add_swept_volumes();
   void carry_rates();
+  [[nodiscard]] Snapshot copy(double time, bool with_old) const;
   Communicator communicator_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;

@@ -5,22 +5,24 @@
 #include <cmath>
 #include <functional>
 
+#include "seam/base/disjoint_sets.hpp"
 #include "seam/solve/newton.hpp"
 
 namespace seam {
 namespace {
 
-/// |K m| / (|K| |m|) on the rows of the mode, where |K| is measured by the rows' largest entries.
+/// |K m| / (|K| |m|), where |K| is measured by the largest entries of the mode's rows. All rows count that
+/// resist: those of a velocity hold a pressure at an outflow.
 double resistance(const Problem& problem, const Matrix& k, const std::vector<double>& mode) {
   std::vector<double> product;
   multiply(k, mode, product);
   double force = 0, scale = 0;
   for (int r = 0; r < k.rows; ++r) {
+    force += product[r] * product[r];
     if (mode[r] == 0) continue;
     double largest = 0;
     for (std::size_t e = k.row_start[r]; e < k.row_start[r + 1]; ++e)
       largest = std::max(largest, std::abs(k.value[e]));
-    force += product[r] * product[r];
     scale += largest * largest * mode[r] * mode[r];
   }
   std::vector<double> sums{force, scale};
@@ -58,6 +60,33 @@ std::vector<std::pair<std::string, std::vector<double>>> candidate_modes(Problem
   return modes;
 }
 
+/// How many parts a mesh has that share no node.
+int count_parts(const MeshData& mesh) {
+  DisjointSets sets(mesh.node_count());
+  const int per_cell = mesh.nodes_per_cell();
+  std::vector<char> used(mesh.node_count(), 0);
+  for (int c = 0; c < mesh.cell_count(); ++c)
+    for (int k = 0; k < per_cell; ++k) {
+      const int* nodes = &mesh.cells[static_cast<std::size_t>(c) * per_cell];
+      used[nodes[k]] = 1;
+      sets.unite(nodes[k], nodes[0]);
+    }
+  int parts = 0;
+  for (int n = 0; n < mesh.node_count(); ++n) parts += used[n] != 0 && sets.root(n) == n ? 1 : 0;
+  return parts;
+}
+
+/// A line about a field whose mesh falls apart; "" where it does not.
+std::string describe_parts(const FieldEntry& entry) {
+  const int parts = count_parts(entry.mesh->whole());
+  if (parts < 2) return "";
+  return fmt::format(
+      "the mesh '{}' of field '{}' has {} parts that share no node: each of them has to be held, or coupled "
+      "to "
+      "something\n",
+      entry.mesh->name(), entry.name, parts);
+}
+
 }  // namespace
 
 std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations) {
@@ -85,6 +114,7 @@ std::string describe_unsupported(Problem& problem, const std::vector<long long>&
                           fmt::join(x, x + block.dimension, ", "));
       break;
     }
+  for (const FieldEntry& entry : problem.fields()) text += describe_parts(entry);
   return text;
 }
 

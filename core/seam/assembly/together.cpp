@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/assembly/together.hpp"
+
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "seam/base/diagnostics.hpp"
+
+namespace seam {
+namespace {
+
+enum Outcome : int { done, refused, failed };
+
+/// The text of the lowest rank that has one, on every rank.
+std::string first_text(const Communicator& communicator, const std::string& mine) {
+  std::vector<char> all(mine.begin(), mine.end());
+  if (!all.empty()) all.push_back('\0');
+  all = communicator.gather_all(all);
+  return all.empty() ? "" : all.data();
+}
+
+}  // namespace
+
+void together(const Communicator& communicator, const std::function<void()>& work) {
+  if (communicator.size() == 1) {
+    work();
+    return;
+  }
+  std::exception_ptr thrown;
+  std::string message;
+  Outcome outcome = done;
+  try {
+    work();
+  } catch (const StepRefused& error) {
+    outcome = refused;
+    message = error.what();
+  } catch (const std::exception& error) {
+    outcome = failed;
+    message = error.what();
+    thrown = std::current_exception();
+  } catch (...) {
+    outcome = failed;
+    message = "something was thrown that is no std::exception";
+    thrown = std::current_exception();
+  }
+  const int worst = communicator.max(outcome);
+  if (worst == done) return;
+  message = first_text(communicator, outcome == worst ? message : "");
+  if (worst == refused) throw StepRefused(message);
+  if (thrown) std::rethrow_exception(thrown);
+  throw Error(message);
+}
+
+}  // namespace seam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "seam/contact/opposite_points.hpp"
+
+namespace seam {
+
+/// Watches over two surfaces that may touch: neither must end up behind the other one. Nothing in the
+/// equations forbids it. A state in which bodies have passed through each other solves them all, since no
+/// point has an opposite one any more, and a long step or a large increment gets there at once.
+class Passage {
+ public:
+  /// @param other null where the opposite surface is given
+  Passage(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
+          ContactWindow window);
+
+  /// @param opposite the other surface at the start of the step
+  void begin_step(Surface opposite);
+  /// @param least_gap that has been found between the surfaces as they are now, m
+  /// @throws StepRefused where a point of the surface that was in front of a facet of the other one, or
+  /// behind it by no more than the window's depth, is behind it by more; the same on all ranks
+  void check(const OppositePoints& opposite, double least_gap);
+
+ private:
+  [[nodiscard]] bool is_needed(double way, double least_gap);
+  std::shared_ptr<const BodySurface> own_, other_;
+  ContactWindow window_;
+  bool is_deep_ = false;  ///< surfaces have overlapped by so much that they might lose each other bit by bit
+  bool has_begun_ = false;
+  Surface own_start_, opposite_start_;
+};
+
+}  // namespace seam

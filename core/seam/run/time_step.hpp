@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "seam/run/stepper.hpp"
+#include "seam/solve/newton.hpp"
+
+namespace seam {
+
+/// Takes a problem from one time to the next: a step is begun, iterated, and then accepted or rewound. What
+/// is rewound leaves no trace: the step taken again is the same to the bit where linear systems are solved
+/// directly and anew, and to the linear solver's tolerance where factors or preconditioners are kept, since
+/// these are dropped.
+class TimeStep {
+ public:
+  TimeStep(Problem& problem, LinearSolver& solver, const NewtonOptions& options, const Stepper& stepper);
+
+  /// Solves for the rates that the states at the start of the run imply, where the scheme needs them.
+  void start();
+  /// Begins a step from the problem's present states.
+  /// @param from, until s
+  /// @param previous length of the step before, s; 0 when there is none
+  void begin(double from, double until, double previous);
+  /// Takes an iteration of Newton's method.
+  /// @return true while there is something left to do; then report() says how it went
+  /// @throws StepRefused, SingularMatrix; the step is to be rewound then, too
+  bool iterate();
+  [[nodiscard]] const NewtonReport& report() const { return newton_.report(); }
+  /// Relative error in time of a step that has converged; 0 where it is not estimated.
+  [[nodiscard]] double error() const { return error_; }
+  [[nodiscard]] const TimePoint& at() const { return at_; }
+  /// The states at the end of the step are the present ones from now on.
+  void accept();
+  /// Everything is as it was before begin().
+  void rewind();
+
+  /// Sizes of the states so far that errors are relative to, see time_error(): a restart has them.
+  [[nodiscard]] const std::vector<double>& largest() const { return largest_; }
+  void set_largest(std::vector<double> largest) { largest_ = std::move(largest); }
+
+ private:
+  [[nodiscard]] TimePoint point_of(double from, double until, double previous) const;
+  Problem& problem_;
+  LinearSolver& solver_;
+  Newton newton_;
+  const Stepper& stepper_;
+  bool fresh_rates_ = false;  ///< rates follow from the balance at the start of each step
+  TimePoint at_;
+  double error_ = 0;
+  std::vector<double> largest_;
+  // At the start of the step.
+  Problem::Snapshot before_;
+  std::vector<double> largest_before_;
+};
+
+}  // namespace seam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Boundaries that meet and prescribe different values there.
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "seam/solve/problem.hpp"
+
+namespace seam {
+namespace {
+
+struct Conflict {
+  int first, second;  ///< conditions
+  double first_value, second_value;
+  double at[3];
+};
+
+/// Of the nodes that this rank owns, one for each two conditions.
+std::vector<Conflict> conflicts_of(const FieldEntry& entry, double time) {
+  std::vector<Conflict> found;
+  struct Claim {
+    int condition;
+    double value;
+  };
+  std::map<std::pair<int, int>, std::map<int, Claim>> claims;  // by block and component, by node
+  const int dim = entry.mesh->dimension();
+  for (int k = 0; k < static_cast<int>(entry.conditions.size()); ++k) {
+    const PrescribedCondition& condition = entry.conditions[k];
+    const Space& space = *entry.field->blocks()[condition.block].space;
+    auto& claimed = claims[{condition.block, condition.component}];
+    for (const int node : condition.nodes) {
+      if (node >= space.owned_nodes()) continue;
+      const double* x = space.position(node);
+      const double value = condition.value(x, dim, time);
+      const auto [claim, is_new] = claimed.try_emplace(node, Claim{k, value});
+      const double before = claim->second.value;
+      constexpr double rounding = 1e-12;
+      const bool differs = std::abs(before - value) > rounding * (std::abs(before) + std::abs(value));
+      const bool known = std::ranges::any_of(
+          found, [&](const Conflict& c) { return c.first == claim->second.condition && c.second == k; });
+      if (!is_new && differs && !known) {
+        Conflict& conflict = found.emplace_back(Conflict{claim->second.condition, k, before, value, {}});
+        std::copy_n(x, dim, conflict.at);
+      }
+      claim->second = {k, value};
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<Diagnostic> Problem::find_conflicts(double time) const {
+  std::vector<Diagnostic> warnings;
+  for (const FieldEntry& entry : fields_) {
+    std::vector<Conflict> all = communicator_.gather_all(conflicts_of(entry, time));
+    std::ranges::stable_sort(all, {}, [](const Conflict& c) { return std::pair(c.first, c.second); });
+    const auto same = std::ranges::unique(
+        all, [](const Conflict& a, const Conflict& b) { return a.first == b.first && a.second == b.second; });
+    all.erase(same.begin(), same.end());
+    for (const Conflict& c : all) {
+      const PrescribedCondition &first = entry.conditions[c.first], &second = entry.conditions[c.second];
+      warnings.push_back(
+          {Diagnostic::Severity::warning, second.where,
+           fmt::format(
+               "boundaries '{}' and '{}' of field '{}' meet at ({:.6g}) and prescribe different values "
+               "of '{}' there, {:.6g} and {:.6g}: what stands last in the scene counts, {:.6g}; the "
+               "other condition stands at {}",
+               first.boundary, second.boundary, entry.name,
+               fmt::join(c.at, c.at + entry.mesh->dimension(), ", "), second.unknown, c.first_value,
+               c.second_value, c.second_value, first.where.text())});
+    }
+  }
+  return warnings;
+}
+
+}  // namespace seam

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/term/term_name.hpp"
+
+#include <cxxabi.h>
+
+#include <cstdlib>
+#include <memory>
+#include <typeinfo>
+
+namespace seam {
+
+std::string term_name(const Term& term) {
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> text(
+      abi::__cxa_demangle(typeid(term).name(), nullptr, nullptr, &status), &std::free);
+  std::string name = status == 0 ? text.get() : typeid(term).name();
+  const std::string wrapper = "seam::KernelTerm<";
+  if (name.starts_with(wrapper)) name = name.substr(wrapper.size(), name.size() - wrapper.size() - 1);
+  const std::string hidden = "(anonymous namespace)::";
+  for (std::size_t at = 0; (at = name.find(hidden, at)) != std::string::npos;) name.erase(at, hidden.size());
+  return name;
+}
+
+}  // namespace seam

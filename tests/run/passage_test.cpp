@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Bodies do not pass through each other, whatever the step; and what slides off or flies off goes on.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/run_command.hpp"
+#include "series.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+/// A block that lies on the ground, and a smaller one above it with a gap of 0.05.
+std::string pair(const std::string& upper, const std::string& rest) {
+  return R"yaml(
+title: A block above another one
+dimension: 2
+plugins: [solid, nitsche_fsci]
+meshes:
+  lower: {grid: {from: [0, 0], to: [2, 0.5], cells: [16, 4]}}
+  upper: {grid: {from: [0.73, 0.55], to: [1.23, 1.05], cells: [4, 4]}}
+fields:
+  lower:
+    type: solid
+    mesh: lower
+    density: 1
+    material: {type: neo_hookean, young: 1000, poisson: 0.3}
+    boundary: [{on: y_min, displacement: [0, 0]}]
+  upper:
+    type: solid
+    mesh: upper
+    density: 1
+    material: {type: neo_hookean, young: 1000, poisson: 0.3}
+)yaml" + upper +
+         R"yaml(
+interfaces:
+  down: {type: contact, from: upper, to: lower}
+  up: {type: contact, from: lower, to: upper}
+coupling: [{type: contact, on: down}, {type: contact, on: up}]
+output:
+  fields: false
+  probes:
+    foot: {field: upper, at: [0.98, 0.55], quantity: displacement}
+)yaml" + rest;
+}
+
+struct Outcome {
+  int code;
+  std::string output;
+  std::vector<double> time, x, y;
+};
+
+Outcome run(const std::string& text) {
+  const Folder folder;
+  const auto done = seam("run " + folder.file("scene.yaml", text) + " --quiet --no-picture --folder " +
+                         (folder.path / "out").string());
+  Outcome outcome{done.code, done.output, {}, {}, {}};
+  const std::string series = folder.read("out/series.csv");
+  if (series.empty()) return outcome;
+  outcome.time = column(series, "time");
+  outcome.x = column(series, "foot.x");
+  outcome.y = column(series, "foot.y");
+  return outcome;
+}
+
+/// Whether the foot has ever been below the lower block's surface by more than half of its cells' diameter.
+bool has_passed(const Outcome& outcome) {
+  return std::ranges::any_of(outcome.y, [](double y) { return y < -0.05 - 0.09; });
+}
+
+}  // namespace
+
+TEST_CASE("a block is not pushed through another one by a long static step") {
+  const double step = GENERATE(0.5, 0.25, 0.1);
+  const Outcome outcome =
+      run(pair("    boundary: [{on: y_max, displacement: [0, \"-2*t\"]}]\n",
+               fmt::format("time: {{static: true, end: 0.5, step: {{initial: {}}}}}\n", step)));
+  CAPTURE(step, outcome.output);
+  // It cannot get to the end: whether the run gives up or crushes the block, it does not say that it went on.
+  CHECK_FALSE(has_passed(outcome));
+}
+
+TEST_CASE("a fast block does not get behind what it hits") {
+  const double step = GENERATE(0.1, 0.05, 0.02);
+  const Outcome outcome =
+      run(pair("    initial: {velocity: [0, -10]}\n",
+               fmt::format("time: {{theta: 1, end: 0.2, step: {{initial: {}}}}}\n", step)));
+  CAPTURE(step, outcome.output);
+  CHECK(outcome.code == 0);
+  CHECK_FALSE(has_passed(outcome));
+  // It has hit, and comes back.
+  REQUIRE(outcome.y.size() > 2);
+  CHECK(*std::ranges::min_element(outcome.y) < -0.04);
+  CHECK(outcome.y.back() > *std::ranges::min_element(outcome.y));
+}
+
+TEST_CASE("a block slides off an edge in one step") {
+  // Pressed onto the lower block, then drawn over its edge and down beside it.
+  const Outcome outcome =
+      run(pair("    boundary: [{on: y_max, displacement: [\"t < 1 ? 0 : 2*(t - 1)\", \"t < 1 ? -0.055*t : "
+               "-0.055\"]}]\n",
+               "time: {static: true, end: 2, step: {initial: 0.25}}\n"));
+  CAPTURE(outcome.output);
+  CHECK(outcome.code == 0);
+  REQUIRE_FALSE(outcome.x.empty());
+  CHECK(outcome.x.back() == Approx(2).margin(0.01));
+}
+
+TEST_CASE("a block leaves farther than surfaces look in one step") {
+  const Outcome outcome =
+      run(pair("    boundary: [{on: y_max, displacement: [0, \"t < 1 ? -0.055*t : 3*(t - 1)\"]}]\n",
+               "time: {static: true, end: 2, step: {initial: 1}}\n"));
+  CAPTURE(outcome.output);
+  CHECK(outcome.code == 0);
+  REQUIRE_FALSE(outcome.y.empty());
+  CHECK(outcome.y.back() == Approx(3).margin(0.01));
+}
+
+TEST_CASE("an obstacle does not get through a body in one step, nor a body through it") {
+  const double step = GENERATE(0.5, 0.1);
+  const Folder folder;
+  const std::string scene = fmt::format(R"yaml(
+title: A stamp of given motion
+dimension: 2
+plugins: [solid, nitsche_fsci]
+meshes:
+  lower: {{grid: {{from: [0, 0], to: [2, 0.5], cells: [16, 4]}}}}
+fields:
+  lower:
+    type: solid
+    mesh: lower
+    density: 1
+    material: {{type: neo_hookean, young: 1000, poisson: 0.3}}
+    boundary: [{{on: y_min, displacement: [0, 0]}}]
+interfaces:
+  stamp:
+    type: obstacle
+    from: lower
+    body: {{type: box, from: [0.73, 0.55], to: [1.23, 1.05]}}
+    motion: {{translation: [0, "-4*t"]}}
+coupling: [{{type: contact, on: stamp}}]
+time: {{theta: 1, end: 0.5, step: {{initial: {}, minimum: 1e-3}}}}
+output: {{fields: false, probes: {{top: {{field: lower, at: [0.98, 0.5], quantity: displacement}}}}}}
+)yaml",
+                                        step);
+  const auto done = seam("run " + folder.file("scene.yaml", scene) + " --quiet --no-picture --folder " +
+                         (folder.path / "out").string());
+  CAPTURE(step, done.output);
+  // The stamp's foot is at 0.55 - 4 t: the body's top is never above it by more than the depth.
+  const std::string series = folder.read("out/series.csv");
+  const auto time = column(series, "time"), top = column(series, "top.y");
+  for (std::size_t k = 0; k < time.size(); ++k) CHECK(top[k] < 0.05 - 4 * time[k] + 0.09);
+}

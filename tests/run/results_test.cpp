@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Numbers that mean nothing do not pass as results.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/run_command.hpp"
+#include "series.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+std::string drawn(const std::string& rest) {
+  return R"yaml(
+title: A block that is drawn
+dimension: 2
+plugins: [solid]
+meshes:
+  block: {grid: {from: [0, 0], to: [1, 1], cells: [2, 2]}}
+fields:
+  block:
+    type: solid
+    mesh: block
+    material: {type: neo_hookean, young: 100, poisson: 0.3}
+    boundary: [{on: x_min, displacement: [0, 0]}, {on: x_max, displacement: ["0.1*t", 0]}]
+time: {static: true, end: 1, step: {initial: 0.5}}
+)yaml" + rest;
+}
+
+Result run(const Folder& folder, const std::string& text, const std::string& options = "") {
+  return seam("run " + folder.file("scene.yaml", text) + " --quiet --no-picture --folder " +
+              (folder.path / "out").string() + options);
+}
+
+const std::string tip = "probes: {tip: {field: block, at: [1, 0.5], quantity: displacement, component: x}}";
+
+}  // namespace
+
+TEST_CASE("a check is taken at its time: between two steps, and never beyond the run") {
+  const auto outcome = [](const std::string& check) {
+    const Folder folder;
+    return run(folder, drawn("output: {fields: false, " + tip + "}\nchecks: [{that: tip, " + check +
+                             ", within: 1e-9, source: linear in time}]\n"))
+        .code;
+  };
+  CHECK(outcome("at: 0.5, is: 0.05") == 0);
+  CHECK(outcome("at: 0.7, is: 0.07") == 0);
+  CHECK(outcome("at: 0.7, is: 0.05") == 1);
+  CHECK(outcome("at: 8, is: 0.1") == 1);
+  CHECK(outcome("at: -1, is: 0") == 1);
+}
+
+TEST_CASE("a statistic of too few samples is no number and fails, asked for or not") {
+  const std::string what = GENERATE("roughness", "frequency");
+  const std::string check = GENERATE("", "checks: [{that: s, at_most: 1e9, source: nothing}]\n");
+  const Folder folder;
+  const auto outcome = run(folder, drawn("output: {fields: false, " + tip +
+                                         ", statistics: {s: {of: tip, what: " + what + "}}}\n" + check));
+  CAPTURE(what, check, outcome.output);
+  CHECK(outcome.code == 1);
+  CHECK_THAT(outcome.output, Catch::Contains("FAIL  s"));
+}
+
+TEST_CASE("a formula without a value at the end fails") {
+  const Folder folder;
+  const auto outcome =
+      run(folder, drawn("output: {fields: false, " + tip + ", formulas: {f: {value: sqrt(0 - tip)}}}\n"));
+  CHECK(outcome.code == 1);
+  CHECK_THAT(outcome.output, Catch::Contains("FAIL  f"));
+}
+
+TEST_CASE("iterations are those of steps that were taken; rejected steps are counted apart") {
+  const Folder folder;
+  const auto outcome =
+      seam("run " SEAM_SOURCE_DIR "/tests/run/moving_disc.yaml --quiet --no-picture --folder " +
+           (folder.path / "out").string() +
+           " --set time.step.initial=0.6 --set 'meshes.channel.grid.cells=[60, 30]'");
+  CAPTURE(outcome.output);
+  const auto summary = nlohmann::json::parse(folder.read("out/summary.json"));
+  const long taken = summary["steps"], rejected = summary["rejected_steps"];
+  CHECK(rejected > 0);
+  const auto& results = summary["results"];
+  CHECK(results["steps.taken"] == taken);
+  CHECK(results["steps.rejected"] == rejected);
+  CHECK(results["newton.iterations.median"] >= 1);
+  CHECK(results["newton.iterations.most"] >= results["newton.iterations.median"]);
+}

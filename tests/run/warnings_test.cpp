@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes that say what cannot be, or what is hardly meant, and probes that depend on no number of a cell.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_command.hpp"
+#include "series.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+struct Run {
+  explicit Run(const std::string& text, const std::string& options = "") {
+    done = seam("run " + folder.file("scene.yaml", text) + " --no-picture --folder " +
+                (folder.path / "out").string() + options);
+  }
+  [[nodiscard]] std::vector<double> series(const std::string& name) const {
+    return column(folder.read("out/series.csv"), name);
+  }
+  Folder folder;
+  Result done;
+};
+
+/// Two blocks pressed onto each other.
+std::string pressed(const std::string& down, const std::string& up) {
+  return fmt::format(R"yaml(
+title: Two blocks
+dimension: 2
+plugins: [solid, nitsche_fsci]
+meshes:
+  lower: {{grid: {{from: [0, 0], to: [1, 0.5], cells: [5, 3]}}}}
+  upper: {{grid: {{from: [0, 0.5], to: [1, 1], cells: [8, 4]}}}}
+fields:
+  lower:
+    type: solid
+    mesh: lower
+    material: {{type: neo_hookean, young: 100, poisson: 0.3}}
+    boundary: [{{on: y_min, displacement: [null, 0]}}, {{on: [x_min, x_max], displacement: [0, null]}}]
+  upper:
+    type: solid
+    mesh: upper
+    material: {{type: neo_hookean, young: 30, poisson: 0.2}}
+    boundary: [{{on: y_max, displacement: [null, "-0.1*t"]}}, {{on: [x_min, x_max], displacement: [0, null]}}]
+interfaces:
+  down: {{type: contact, from: upper, to: lower, boundaries: [y_min], opposite: [y_max]}}
+  up: {{type: contact, from: lower, to: upper, boundaries: [y_max], opposite: [y_min]}}
+coupling: [{{type: contact, on: down, stress: {}}}, {{type: contact, on: up, stress: {}}}]
+output:
+  fields: false
+  probes:
+    top: {{field: upper, on: y_max, quantity: reaction}}
+    bottom: {{field: lower, on: y_min, quantity: reaction}}
+time: {{static: true, end: 1, step: {{initial: 0.5}}}}
+)yaml",
+                     down, up);
+}
+
+std::string cavity(const std::string& boundary) {
+  return R"yaml(
+title: A box of fluid
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [1, 1], cells: [6, 6]}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 1
+    boundary:
+)yaml" + boundary +
+         R"yaml(
+time: {static: true, end: 1, step: {initial: 0.5}}
+output: {fields: false, probes: {spin: {field: water, at: [0.5, 0.5], quantity: vorticity}}}
+)yaml";
+}
+
+/// A free body that spins about an axis near its middle one.
+std::string spinning(double shift) {
+  return fmt::format(R"yaml(
+title: A rigid block that spins
+dimension: 3
+plugins: [solid]
+meshes:
+  block: {{grid: {{from: [{0}-0.5, {0}-1, {0}-1.5], to: [{0}+0.5, {0}+1, {0}+1.5], cells: [2, 4, 6]}}}}
+fields:
+  block:
+    type: rigid_body
+    mesh: block
+    density: 1
+    initial: {{rotation_rate: [0.01, 1, 0.01]}}
+time: {{theta: 0.5, end: 0.05, step: {{initial: 0.005}}}}
+solver: {{newton: {{tolerance: 1e-11, increment_tolerance: 1e-9}}}}
+output: {{fields: false, probes: {{turned: {{field: block, quantity: rotation}}}}}}
+)yaml",
+                     shift);
+}
+
+}  // namespace
+
+TEST_CASE("of a pair of surfaces that look at each other one stress counts, not each its own") {
+  for (const std::string same : {"own", "other"}) {
+    const Run run(pressed(same, same));
+    CHECK(run.done.code == 2);
+    CHECK_THAT(run.done.output, Catch::Contains("forces do not balance") && Catch::Contains("scene.yaml:2"));
+  }
+  for (const auto& [down, up] : {std::pair{"own", "other"}, {"other", "own"}, {"both", "both"}}) {
+    const Run run(pressed(down, up));
+    CAPTURE(run.done.output);
+    CHECK(run.done.code == 0);
+    CHECK(run.series("top.y").back() == Approx(-run.series("bottom.y").back()).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("boundaries that meet with different values: the last one counts, and the run says so") {
+  const std::string lid = "      - {on: y_max, velocity: [\"t\", 0]}\n",
+                    walls = "      - {on: [x_min, x_max, y_min], velocity: [0, 0]}\n";
+  const Run tight(cavity(lid + walls)), leaky(cavity(walls + lid)),
+      still(cavity("      - {on: [x_min, x_max, y_min, y_max], velocity: [0, 0]}\n"));
+  CHECK(tight.done.code == 0);
+  CHECK_THAT(tight.done.output, Catch::Contains("prescribe different values") && Catch::Contains("1 and 0") &&
+                                    Catch::Contains("'y_max'"));
+  CHECK_THAT(leaky.done.output, Catch::Contains("0 and 1"));
+  CHECK(tight.series("spin").back() != Approx(leaky.series("spin").back()).epsilon(1e-3));
+  CHECK(still.done.code == 0);
+  CHECK_THAT(still.done.output, !Catch::Contains("different values"));
+  CHECK(nlohmann::json::parse(tight.folder.read("out/summary.json"))["warnings"].size() == 2);
+}
+
+TEST_CASE("fluid that cannot get out of a closed box is refused") {
+  const Run closed(
+      cavity("      - {on: x_min, velocity: [\"t*y*(1 - y)\", 0]}\n      - {on: [x_max, y_min, y_max], "
+             "velocity: [0, 0]}\n"));
+  CAPTURE(closed.done.output);
+  CHECK(closed.done.code != 0);
+  CHECK_THAT(closed.done.output, Catch::Contains("water") && Catch::Contains("pressure"));
+  const Run through(
+      cavity("      - {on: [x_min, x_max], velocity: [\"t*y*(1 - y)\", 0]}\n      - {on: [y_min, y_max], "
+             "velocity: [0, 0]}\n"));
+  CAPTURE(through.done.output);
+  CHECK(through.done.code == 0);
+}
+
+TEST_CASE("a probe where cells meet is the mean of what they have there") {
+  // The lid drives a flow that is symmetric about x = 1/2, and so is its vorticity: that of one of the four
+  // cells around the middle is not.
+  const std::string lid =
+      "      - {on: y_max, velocity: [\"t\", 0]}\n      - {on: [x_min, x_max, y_min], velocity: [0, 0]}\n";
+  const std::string back =
+      "      - {on: y_max, velocity: [\"-t\", 0]}\n      - {on: [x_min, x_max, y_min], velocity: [0, 0]}\n";
+  const Run there(cavity(lid)), mirrored(cavity(back));
+  CHECK(there.series("spin").back() == Approx(-mirrored.series("spin").back()).epsilon(1e-9));
+}
+
+TEST_CASE("a rigid body turns the same far from the origin") {
+  const Run near(spinning(0)), far(spinning(1e6));
+  REQUIRE(near.done.code == 0);
+  REQUIRE(far.done.code == 0);
+  for (const std::string name : {"turned.x", "turned.y", "turned.z"})
+    CHECK(far.series(name).back() == Approx(near.series(name).back()).epsilon(1e-7));
+}
+
+TEST_CASE("a mesh that falls apart is named where its parts are not held") {
+  const Folder folder;
+  // Two squares without a common node.
+  const std::string mesh = folder.file("two.msh", R"msh($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 1 "left"
+2 2 "all"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 3 0 0
+6 4 0 0
+7 4 1 0
+8 3 1 0
+$EndNodes
+$Elements
+3
+1 1 2 1 1 4 1
+2 3 2 2 1 1 2 3 4
+3 3 2 2 1 5 6 7 8
+$EndElements
+)msh");
+  const auto done = seam("run " + folder.file("scene.yaml", R"yaml(
+title: Two squares
+dimension: 2
+plugins: [solid]
+meshes: {squares: {file: two.msh}}
+fields:
+  squares:
+    type: solid
+    mesh: squares
+    material: {type: neo_hookean, young: 100, poisson: 0.3}
+    boundary: [{on: left, displacement: [0, 0]}]
+    body_force: [0, -1]
+output: {fields: false}
+)yaml") + " --no-picture --folder " +
+                         (folder.path / "out").string());
+  CAPTURE(done.output);
+  CHECK(done.code != 0);
+  CHECK_THAT(done.output, Catch::Contains("2 parts that share no node"));
+}
