@@ -65,7 +65,7 @@ TEST_CASE("a statistic of too few samples is no number and fails, asked for or n
 TEST_CASE("a formula without a value at the end fails") {
   const Folder folder;
   const auto outcome =
-      run(folder, drawn("output: {fields: false, " + tip + ", formulas: {f: {value: sqrt(0 - tip)}}}\n"));
+      run(folder, drawn("output: {fields: false, " + tip + ", formulas: {f: sqrt(0 - tip)}}\n"));
   CHECK(outcome.code == 1);
   CHECK_THAT(outcome.output, Catch::Contains("FAIL  f"));
 }

@@ -202,8 +202,10 @@ fields:
     type: solid
     mesh: squares
     material: {type: neo_hookean, young: 100, poisson: 0.3}
+    density: 1
     boundary: [{on: left, displacement: [0, 0]}]
     body_force: [0, -1]
+time: {static: true, end: 1}
 output: {fields: false}
 )yaml") + " --no-picture --folder " +
                          (folder.path / "out").string());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "seam/assembly/together.hpp"
 #include "seam/base/stopwatch.hpp"
@@ -155,28 +156,35 @@ std::string Assembler::describe_not_finite(const TimePoint& at) {
 
 std::vector<double> Assembler::rounding() const {
   constexpr double spacing = std::numeric_limits<double>::epsilon();
-  std::vector<double> size(pending_.size(), 0.0);  // of the unknown, per local unknown
+  std::map<const Block*, std::vector<double>> added;  // what the components of a block are added to
   for (const NumberedBlock& b : blocks_) {
     double extent = 0;
     for (int node = 0; node < b.block->space->nodes(); ++node)
       for (int d = 0; d < b.field->mesh().dimension(); ++d)
         extent = std::max(extent, std::abs(b.block->space->position(node)[d]));
     extent = communicator_.max(extent);
-    const std::vector<char> displaces = displacements(*b.field, *b.block);
+    for (const char displaces : displacements(*b.field, *b.block))
+      added[b.block].push_back(displaces ? extent : 0.0);
+  }
+  return absolute_product([&](const Field&, const Block& block, int component, double value) {
+    return spacing * (std::abs(value) + added.at(&block)[component]);
+  });
+}
+
+std::vector<double> Assembler::absolute_product(const SizeOf& size_of) const {
+  std::vector<double> size(pending_.size(), 0.0);  // per local unknown
+  for (const NumberedBlock& b : blocks_)
     for (std::size_t node = 0; node < b.node_index.size(); ++node) {
       if (b.node_index[node] < 0) continue;
       const int first = graph_.node(b.node_index[node]).first;
       for (int c = 0; c < b.block->size; ++c)
-        size[first + c] =
-            std::abs(b.block->now.value[node * b.block->size + c]) + (displaces[c] ? extent : 0.0);
+        size[first + c] = size_of(*b.field, *b.block, c, b.block->now.value[node * b.block->size + c]);
     }
-  }
   std::vector<double> result(matrix_.rows, 0.0);
   for (int r = 0; r < matrix_.rows; ++r)
     for (std::size_t k = matrix_.row_start[r]; k < matrix_.row_start[r + 1]; ++k)
-      // Columns of nodes that only other ranks know are left out: it is an estimate.
       if (const auto column = static_cast<std::size_t>(matrix_.column[k]); column < size.size())
-        result[r] += spacing * std::abs(matrix_.value[k]) * size[column];
+        result[r] += std::abs(matrix_.value[k]) * size[column];
   return result;
 }
 

@@ -248,9 +248,10 @@ void Simulation::start(const RunOptions& options) {
 
 /// What only the built problem shows.
 void Simulation::warn(const RunOptions& options) {
-  std::vector<Diagnostic> conflicts = problem_.find_conflicts(stepper_.start());
+  const std::vector<Diagnostic> at_start = problem_.find_conflicts(stepper_.start());
+  std::vector<Diagnostic> conflicts = at_start;
   for (Diagnostic& later : problem_.find_conflicts(stepper_.end()))
-    if (std::ranges::none_of(conflicts,
+    if (std::ranges::none_of(at_start,
                              [&](const Diagnostic& d) { return d.where.text() == later.where.text(); }))
       conflicts.push_back(std::move(later));
   for (Diagnostic& conflict : conflicts)

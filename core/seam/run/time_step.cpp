@@ -41,11 +41,7 @@ void TimeStep::begin(double from, double until, double previous) {
 
 bool TimeStep::iterate() {
   if (newton_.iterate()) return true;
-  if (newton_.report().converged)
-    for (const auto& f : problem_.level_flows())
-      if (getenv("SEAM_LEVEL"))
-        fprintf(stderr, "LEVEL %s %.3e %.3e ratio %.3e\n", f.field.c_str(), f.flow, f.scale,
-                f.flow / f.scale);
+  if (newton_.report().converged) problem_.check_levels();
   if (newton_.report().converged && stepper_.adaptive() && !stepper_.is_static())
     error_ = time_error(problem_, at_.step, largest_);
   return false;

@@ -25,6 +25,7 @@ class TimeStep {
   /// Takes an iteration of Newton's method.
   /// @return true while there is something left to do; then report() says how it went
   /// @throws StepRefused, SingularMatrix; the step is to be rewound then, too
+  /// @throws Error where what has converged is no solution, see Problem::check_levels()
   bool iterate();
   [[nodiscard]] const NewtonReport& report() const { return newton_.report(); }
   /// Relative error in time of a step that has converged; 0 where it is not estimated.

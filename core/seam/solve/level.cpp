@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/solve/level.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -130,6 +133,38 @@ void place_levels(FieldEntry& entry) {
       block.prescribed_value[unknown_of(node)] = level.value;
     }
   }
+}
+
+void Problem::check_levels() const {
+  // What flows in at the boundary of a box and out nowhere is 0.45 and more of the flows through all nodes, on
+  // any mesh; what goes together is less than 1e-9 of them.
+  constexpr double allowed = 1e-4;
+  for (const FieldEntry& entry : fields_)
+    for (const LevelCondition& level : entry.levels) {
+      const Block& block = entry.field->blocks()[level.block];
+      if (!communicator_.any(!level.nodes.empty())) continue;
+      const std::vector<double> through =
+          assembler_->absolute_product([&](const Field&, const Block& of, int component, double value) {
+            return &of == &block && component == level.component ? 0.0 : std::abs(value);
+          });
+      double lost = 0, square = 0;
+      for (int node = 0; node < block.space->owned_nodes(); ++node) {
+        const int row = assembler_->row(*entry.field, level.block, node, level.component);
+        if (row < 0) continue;
+        square += through[row] * through[row];
+        if (std::ranges::find(level.nodes, node) != level.nodes.end())
+          lost = std::max(lost, std::abs(assembler_->full_residual()[row]));
+      }
+      lost = communicator_.max(lost);
+      const double flow = std::sqrt(communicator_.sum(square));
+      if (lost <= allowed * flow) continue;
+      throw Error(fmt::format(
+          "field '{}': nothing lets out of a closed part of it what is let in: {:.4g} m^{}/s vanish at the node "
+          "that holds the level of the {}. Either the velocities given on its boundary and its bodies do not "
+          "balance; or a boundary has to be open; or a body takes it in, and sets the level itself: then the level "
+          "is not to be fixed (`fix_pressure: never`)",
+          entry.name, lost, entry.mesh->dimension(), level.unknown));
+    }
 }
 
 }  // namespace seam

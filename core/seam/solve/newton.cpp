@@ -225,7 +225,8 @@ bool Newton::take(NewtonIteration& entry) {
     if (follow(entry)) {
       problem_.assembler().assemble(at_, true);
       const double size = measure({}, 0).residual;
-      const bool much_larger = size_.residual > 0 && size > blow_up * size_.residual && size > 1e-3;
+      // What was at rest has a residual of rounding errors: nothing to compare with.
+      const bool much_larger = !size_.at_rounding && size > blow_up * size_.residual && size > 1e-3;
       if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
       if (!std::isfinite(size) && (!options_.damping || entry.damping / 2 <= least))
         not_finite_ = ": there" + problem_.assembler().describe_not_finite(at_);

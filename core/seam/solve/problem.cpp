@@ -320,28 +320,6 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   return change;
 }
 
-std::vector<Problem::LevelFlow> Problem::level_flows() const {
-  std::vector<LevelFlow> flows;
-  std::vector<double> through;
-  for (const FieldEntry& entry : fields_)
-    for (const LevelCondition& level : entry.levels) {
-      const Block& block = entry.field->blocks()[level.block];
-      if (!communicator_.any(!level.nodes.empty())) continue;
-      if (through.empty()) through = assembler_->rounding();
-      LevelFlow& flow = flows.emplace_back(LevelFlow{entry.name, level.unknown, 0, 0});
-      for (int node = 0; node < block.space->owned_nodes(); ++node) {
-        const int row = assembler_->row(*entry.field, level.block, node, level.component);
-        if (row < 0) continue;
-        flow.scale += std::pow(through[row] / std::numeric_limits<double>::epsilon(), 2);
-        if (std::ranges::find(level.nodes, node) != level.nodes.end())
-          flow.flow = std::max(flow.flow, std::abs(assembler_->full_residual()[row]));
-      }
-      flow.flow = communicator_.max(flow.flow);
-      flow.scale = std::sqrt(communicator_.sum(flow.scale));
-    }
-  return flows;
-}
-
 void Problem::keep_mean_rates() {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
