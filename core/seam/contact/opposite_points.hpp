@@ -35,6 +35,9 @@ class OppositePoints {
   /// @param depth, reach m, as FacetSearch::find() has them
   [[nodiscard]] std::optional<FacetSearch::Hit> facing(int facet, const double* on_facet, double depth,
                                                        double reach) const;
+  /// Facets of the own surface that are no partners of one of its facets; none where the other surface is
+  /// another body's.
+  [[nodiscard]] FacetSearch::Exclude neighbours(int facet) const;
   [[nodiscard]] const Surface& own_surface() const { return surface_; }
   [[nodiscard]] const Surface& opposite_surface() const { return search_.surface(); }
   /// Takes another facet for the one opposite, infinitely far away: for a point that has none, and whose
@@ -74,7 +77,6 @@ class OppositePoints {
  private:
   [[nodiscard]] std::array<cutting::Vector, 3> own_vertices(int facet) const;
   [[nodiscard]] bool is_own_neighbourhood(int facet, int other_facet) const;
-  [[nodiscard]] FacetSearch::Exclude neighbours(int facet) const;
   const BodySurface* own_;
   bool is_itself_;
   Surface surface_;  ///< own

@@ -25,6 +25,8 @@ class Passage {
 
  private:
   [[nodiscard]] bool is_needed(double way, double least_gap);
+  [[nodiscard]] bool has_passed(const cutting::Vector& start, const cutting::Vector& end,
+                                const cutting::Vector& normal, bool overlaps, const Surface& now) const;
   std::shared_ptr<const BodySurface> own_, other_;
   ContactWindow window_;
   bool is_deep_ = false;  ///< surfaces have overlapped by so much that they might lose each other bit by bit

@@ -136,8 +136,8 @@ void place_levels(FieldEntry& entry) {
 }
 
 void Problem::check_levels() const {
-  // What flows in at the boundary of a box and out nowhere is 0.45 and more of the flows through all nodes, on
-  // any mesh; what goes together is less than 1e-9 of them.
+  // What flows in at the boundary of a box and out nowhere is 0.45 and more of the flows through all nodes,
+  // on any mesh; what goes together is less than 1e-9 of them.
   constexpr double allowed = 1e-4;
   for (const FieldEntry& entry : fields_)
     for (const LevelCondition& level : entry.levels) {
@@ -159,9 +159,11 @@ void Problem::check_levels() const {
       const double flow = std::sqrt(communicator_.sum(square));
       if (lost <= allowed * flow) continue;
       throw Error(fmt::format(
-          "field '{}': nothing lets out of a closed part of it what is let in: {:.4g} m^{}/s vanish at the node "
+          "field '{}': nothing lets out of a closed part of it what is let in: {:.4g} m^{}/s vanish at the "
+          "node "
           "that holds the level of the {}. Either the velocities given on its boundary and its bodies do not "
-          "balance; or a boundary has to be open; or a body takes it in, and sets the level itself: then the level "
+          "balance; or a boundary has to be open; or a body takes it in, and sets the level itself: then the "
+          "level "
           "is not to be fixed (`fix_pressure: never`)",
           entry.name, lost, entry.mesh->dimension(), level.unknown));
     }
