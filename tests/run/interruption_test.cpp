@@ -71,7 +71,7 @@ TEST_CASE("SIGUSR1 to mpirun lets all ranks finish the step", "[mpi]") {
 TEST_CASE("SIGTERM to mpirun does when it leaves the ranks time", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(step_seconds));
-  Process process(run(scene, folder.path / "r"), two_ranks + "--mca odls_base_sigkill_timeout 60",
+  Process process(run(scene, folder.path / "r"), two_ranks + "--mca odls_base_sigkill_timeout 20",
                   (folder.path / "log").string());
   wait_for_step(folder, "r");
   process.send(SIGTERM);

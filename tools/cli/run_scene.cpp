@@ -107,11 +107,11 @@ std::string record_failure(Simulation& simulation, ResultsFolder& folder, const 
     simulation.record_failure(message);
     write_summary(simulation, {}, folder, communicator);
     folder.finish(status);
-  } catch (const std::exception& error) {
+  } catch (const std::exception&) {
     // What made the run fail (a full disk, say) may prevent its record, too; the first reason is the one to
     // show.
-    return fmt::format("{}\nthe last good state could not be saved: {}{}", text, error.what(),
-                       name_newest_restart(folder));
+    return from_root(communicator, fmt::format("{}\nthe last good state could not be saved: {}{}", text,
+                                               agree_on_exception(), name_newest_restart(folder)));
   }
   if (!simulation.has_state()) return text;
   return fmt::format(

@@ -279,7 +279,8 @@ void ResultsFolder::judge_unlisted() const {
 std::vector<std::string> ResultsFolder::restart_points() const {
   std::vector<std::string> result;
   for (const auto& [name, step] : files_)
-    if (name.starts_with("restart/") && name.ends_with(".restart")) result.push_back(name);
+    if (name.starts_with("restart/") && name.ends_with(".restart") && is_there(path_ / name))
+      result.push_back(name);
   std::sort(result.rbegin(), result.rend());
   return result;
 }

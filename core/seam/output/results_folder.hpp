@@ -48,7 +48,7 @@ class ResultsFolder {
   [[nodiscard]] const std::string& run() const { return run_; }
   /// Whether the run goes on that wrote what is here. On rank 0; false elsewhere.
   [[nodiscard]] bool resumes() const { return resumed_; }
-  /// Names of those that are listed, the newest first. On rank 0; empty elsewhere.
+  /// Names of those that are listed and there, the newest first. On rank 0; empty elsewhere.
   [[nodiscard]] std::vector<std::string> restart_points() const;
 
   /// Removes what an earlier run wrote, or what the run that is resumed wrote after this step, and records
