@@ -67,8 +67,8 @@ TEST_CASE("a run that fails leaves its reason and the last good state") {
   CHECK_THAT(folder.read("out/block.pvd"), Contains("timestep=\"0.5\""));
 
   // The obstacle gone, the run goes on from there.
-  const Result resumed =
-      seam(run(folder, scene, "out") + " --resume --set 'fields.block.boundary.1.displacement=[-0.2*t, 0]'");
+  const Result resumed = seam(run(folder, scene, "out") +
+                              " --resume --changed --set 'fields.block.boundary.1.displacement=[-0.2*t, 0]'");
   CHECK(resumed.code == 0);
   CHECK(summary(folder, "out")["status"] == "finished");
   CHECK(summary(folder, "out")["steps"] == 4);

@@ -13,7 +13,8 @@
 namespace seam::cli {
 
 /// What the command line returns to the shell.
-enum ExitCode { ok = 0, failed = 1, broken_input = 2, plugin_failure = 3 };
+/// A run that a signal interrupts returns 128 and its number, as shells do for a process that one ends.
+enum ExitCode { ok = 0, failed = 1, broken_input = 2, plugin_failure = 3, out_of_time = 124 };
 
 /// One subcommand: its options are declared when it is made, `run` is called when the user chose it.
 struct Command {

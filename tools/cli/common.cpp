@@ -4,6 +4,7 @@
 
 #include "command.hpp"
 #include "run.hpp"
+#include "seam/base/memory.hpp"
 #include "seam/contact/contact_interface.hpp"
 #include "seam/cut/body.hpp"
 #include "seam/interface/matching.hpp"
@@ -18,8 +19,14 @@ Failure current_failure() {
     return {plugin_failure, e.what()};
   } catch (const RunFailure& e) {
     return {failed, e.what()};
+  } catch (const OutOfMemory& e) {
+    return {failed, e.what()};
+  } catch (const FileError& e) {
+    return {failed, e.what()};
   } catch (const Error& e) {
     return {broken_input, e.what()};
+  } catch (const std::bad_alloc&) {
+    return {failed, "error: " + describe_lack_of_memory("what was being done")};
   } catch (const std::exception& e) {
     return {failed, fmt::format("error: {}", e.what())};
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <csignal>
 #include <cstdio>
 
 #include "command.hpp"
@@ -34,6 +35,8 @@ int run_chosen(const std::vector<Command>& commands) {
 
 int main(int argc, char** argv) {
   keep_freed_memory();
+  // A file that grows beyond `ulimit -f` is then an error that can be told, as on a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("Seam: multiphysics finite elements with physics in plugins");
   app.require_subcommand(1);
   app.set_version_flag("--version", SEAM_VERSION);

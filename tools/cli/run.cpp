@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "seam/run/interruption.hpp"
 #include "session.hpp"
 
 namespace seam::cli {
@@ -23,24 +24,37 @@ void report(const SceneOutcome& outcome) {
   if (!outcome.picture.empty()) fmt::print("  picture: {}\n", outcome.picture.string());
 }
 
+void report_interruption(const SceneOutcome& outcome) {
+  fmt::print(
+      stderr,
+      "interrupted: {}. The state at t = {:.6g}, step {}, is in {}; the same command with --resume goes "
+      "on from it\n",
+      outcome.interruption->reason, outcome.time, outcome.steps, outcome.folder.string());
+}
+
 int run(const SceneRun& options, bool is_root) {
   const SceneOutcome outcome = run_scene(options);
   if (is_root) report(outcome);
-  return outcome.passed() ? ok : failed;
+  if (is_root && outcome.interruption) report_interruption(outcome);
+  return outcome.exit_code();
 }
 
 int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_root) {
   int passed = 0, bad = 0;
   for (const std::string& scene : scenes) {
     options.scene = scene;
-    options.folder = std::filesystem::path("results") / std::filesystem::path(scene).stem();
+    options.ignore_scenes_folder = true;
     try {
       const SceneOutcome outcome = run_scene(options);
+      if (outcome.interruption) {
+        if (is_root) report_interruption(outcome);
+        return outcome.exit_code();
+      }
       if (is_root)
         fmt::print("{} {} ({} checks, {:.2f} s)\n{}", outcome.passed() ? "ok  " : "FAIL", scene,
                    outcome.checks.size(), outcome.timings.total, check_table(outcome.checks));
       ++(outcome.passed() ? passed : bad);
-    } catch (const Error&) {
+    } catch (const std::exception&) {
       ++bad;
       const std::string message = agree_on_exception();
       if (is_root) fmt::print("FAIL {}\n{}\n", scene, message);
@@ -52,6 +66,18 @@ int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_roo
 
 void add_common(CLI::App* app, SceneRun& run) {
   app->add_option("--set", run.set, "replace a value: key.key=value; may be repeated")->take_all();
+  app->add_flag("--overwrite", run.use.overwrite,
+                "replace what is in the folder, whatever run wrote it and whatever came of it");
+  app->add_option_function<std::string>(
+      "--time-limit",
+      [&run](const std::string& text) {
+        try {
+          run.time_limit = parse_duration(text);
+        } catch (const Error& error) {
+          throw CLI::ValidationError("--time-limit", error.what());
+        }
+      },
+      "begin no step after so much wall time (90m, 1h30m, seconds): writes a restart point, exit code 124");
   app->add_flag("--quiet", run.quiet, "no progress line");
   app->add_flag("!--no-picture", run.pictures, "make no picture");
 }
@@ -64,9 +90,13 @@ Command run_command(CLI::App& parent) {
   app->add_option("scene", options->scene, "YAML file")->required();
   app->add_option("--folder", options->folder,
                   "where results go; default as the scene says, else results/<scene>");
-  app->add_flag("--resume", options->resume, "continue from the newest restart point, if there is one");
+  CLI::Option* resume = app->add_flag("--resume", options->use.resume,
+                                      "continue from the newest restart point, if there is one");
+  app->add_flag("--changed", options->use.changed, "with --resume: go on although the scene has changed")
+      ->needs(resume);
   app->add_option("--stop-after", options->stop_after, "take so many steps only");
   add_common(app, *options);
+  resume->excludes("--overwrite");
   return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "command.hpp"
@@ -13,8 +14,10 @@ namespace seam::cli {
 struct SceneRun {
   std::string scene;
   std::vector<std::string> set;
-  std::filesystem::path folder;  ///< empty: as the scene says, else results/<scene>
-  bool resume = false;
+  std::filesystem::path folder;       ///< empty: as the scene says, else results/<scene>
+  bool ignore_scenes_folder = false;  ///< results/<scene>, whatever the scene says
+  FolderUse use;
+  double time_limit = std::numeric_limits<double>::infinity();  ///< s
   bool quiet = false;
   bool pictures = true;
   std::optional<long> stop_after;
@@ -30,7 +33,12 @@ struct SceneOutcome {
   Timings timings;
   long long unknowns = 0;
   double peak_memory = 0;  ///< bytes, over all ranks
+  long steps = 0;
+  double time = 0;                           ///< of the last state, s
+  std::optional<Interruption> interruption;  ///< when the run did not reach its end; then nothing is checked
   [[nodiscard]] bool passed() const;
+  /// Of the command that ran this scene alone.
+  [[nodiscard]] int exit_code() const;
 };
 
 /// A scene whose solution failed, though the scene itself is well.

@@ -5,25 +5,44 @@
 #include <nlohmann/json.hpp>
 
 #include "run.hpp"
+#include "seam/base/all_or_none.hpp"
+#include "seam/base/memory.hpp"
 #include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
+#include "seam/output/results_folder.hpp"
+#include "seam/run/interruption.hpp"
 #include "session.hpp"
 
 namespace seam::cli {
 namespace {
 
-std::filesystem::path results_folder(const SceneRun& run, const Scene& scene) {
+/// results/NAME, or, where another scene of that name has its results there, results/NAME-FOLDER with the
+/// folder that the scene lies in.
+std::filesystem::path default_folder(const Scene& scene) {
+  const std::string name = scene.path.stem().string();
+  const std::filesystem::path usual = std::filesystem::path("results") / name;
+  if (!ResultsFolder::belongs_to_another(usual, scene)) return usual;
+  const std::string parent = std::filesystem::absolute(scene.path).parent_path().filename().string();
+  return std::filesystem::path("results") / (name + "-" + parent);
+}
+
+/// Collective: the first rank looks, before any makes the folder.
+std::filesystem::path results_folder(const SceneRun& run, const Scene& scene,
+                                     const Communicator& communicator) {
   if (!run.folder.empty()) return run.folder;
   const Parameters& output = scene.root.object("output");
-  if (output.has("folder")) return output.text("folder");
-  return std::filesystem::path("results") / scene.path.stem();
+  if (output.has("folder") && !run.ignore_scenes_folder) return output.text("folder");
+  return from_root(communicator, communicator.rank() == 0 ? default_folder(scene).string() : "");
 }
 
 /// The picture program stands beside this one.
-std::filesystem::path make_picture(const Scene& scene, const std::filesystem::path& folder) {
+std::filesystem::path make_picture(const Scene& scene, ResultsFolder& results) {
   const Parameters& output = scene.root.object("output");
   if (!output.has("picture") || !output.boolean("fields")) return {};
   const Parameters& p = output.object("picture");
+  const std::filesystem::path& folder = results.path();
+  results.remove("picture.png");
+  results.claim("picture.png", ResultsFolder::at_the_end);
   const std::filesystem::path picture = folder / "picture.png";
   const auto beside = own_executable().parent_path() / "seam-picture";
   std::vector<std::string> call{beside.string(),
@@ -41,28 +60,76 @@ std::filesystem::path make_picture(const Scene& scene, const std::filesystem::pa
   return run_program(call) == 0 ? picture : std::filesystem::path();
 }
 
-void write_summary(const nlohmann::json& summary, const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder);
-  write_text_atomically((folder / "summary.json").string(), summary.dump(1) + "\n");
+/// Collective.
+nlohmann::json write_summary(Simulation& simulation, const std::vector<CheckResult>& checks,
+                             ResultsFolder& folder, const Communicator& communicator) {
+  const nlohmann::json summary = simulation.summary(checks);
+  all_or_none<FileError>(communicator, [&] {
+    if (communicator.rank() != 0) return;
+    folder.claim("summary.json", ResultsFolder::at_the_end);
+    // What is no UTF-8 (a path in a message) must not cost the summary.
+    const std::string text = summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    write_text_atomically((folder.path() / "summary.json").string(), text);
+  });
+  return summary;
+}
+
+/// Within a catch block: whether the scene or the solver is to blame, and not what the run needs around it.
+bool is_own_fault() {
+  try {
+    throw;
+  } catch (const FileError&) {
+    return false;
+  } catch (const OutOfMemory&) {
+    return false;
+  } catch (const Error&) {
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+std::string name_newest_restart(const ResultsFolder& folder) {
+  const std::vector<std::string> points = folder.restart_points();
+  if (points.empty()) return "";
+  return fmt::format("\nThe newest restart point is '{}'; `seam run --resume` starts from it",
+                     (folder.path() / points.front()).string());
 }
 
 /// Within a catch block: leaves the last good state and the reason on disk.
 /// @returns what to tell the user, the same on all ranks
-std::string record_failure(Simulation& simulation, const std::filesystem::path& folder,
-                           const Communicator& communicator) {
+std::string record_failure(Simulation& simulation, ResultsFolder& folder, const Communicator& communicator) {
+  const bool keeps = !is_own_fault();
   const std::string message = agree_on_exception();
+  const std::string text = message.starts_with("error: ") ? message : "error: " + message;
+  const std::string status = communicator.any(keeps) ? "broken" : "failed";
   try {
     simulation.record_failure(message);
-    const nlohmann::json summary = simulation.summary({});
-    if (communicator.rank() == 0) write_summary(summary, folder);
-  } catch (const std::exception& error) {
+    write_summary(simulation, {}, folder, communicator);
+    folder.finish(status);
+  } catch (const std::exception&) {
     // What made the run fail (a full disk, say) may prevent its record, too; the first reason is the one to
     // show.
-    return fmt::format("error: {}\nthe last good state could not be saved: {}", message, error.what());
+    return from_root(communicator, fmt::format("{}\nthe last good state could not be saved: {}{}", text,
+                                               agree_on_exception(), name_newest_restart(folder)));
   }
+  if (!simulation.has_state()) return text;
   return fmt::format(
-      "error: {}\nThe last good state (t = {:.6g}, step {}) is in {}; `seam run --resume` starts from it",
-      message, simulation.time(), simulation.step_number(), folder.string());
+      "{}\nThe last good state (t = {:.6g}, step {}) is in {}; `seam run --resume` starts from it", text,
+      simulation.time(), simulation.step_number(), folder.path().string());
+}
+
+/// Writes the summary even where the checks cannot be evaluated: what has been computed is not lost by a
+/// check's misspelt name.
+std::vector<CheckResult> judge(Simulation& simulation, const Scene& scene, const Results& results,
+                               ResultsFolder& folder, const Communicator& communicator) {
+  try {
+    return evaluate_checks(scene.root.list("checks"), results);
+  } catch (const Error&) {
+    write_summary(simulation, {}, folder, communicator);
+    folder.finish(simulation.status());
+    throw;
+  }
 }
 
 }  // namespace
@@ -71,7 +138,14 @@ bool SceneOutcome::passed() const {
   return std::all_of(checks.begin(), checks.end(), [](const CheckResult& c) { return c.passed; });
 }
 
+int SceneOutcome::exit_code() const {
+  if (!interruption) return passed() ? ok : failed;
+  constexpr int by_signal = 128;
+  return interruption->signal != 0 ? by_signal + interruption->signal : out_of_time;
+}
+
 SceneOutcome run_scene(const SceneRun& run) {
+  const SignalWatch watch;
   Registry registry = builtin_types();
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(run.scene, parse_overrides(run.set), host, registry);
@@ -81,27 +155,34 @@ SceneOutcome run_scene(const SceneRun& run) {
 
   SceneOutcome outcome;
   outcome.title = scene.root.text("title");
-  outcome.folder = results_folder(run, scene);
+  // Before anything is built: what the folder holds may forbid the run.
+  ResultsFolder folder(communicator, scene, results_folder(run, scene, communicator), run.use);
+  outcome.folder = folder.path();
   Simulation simulation(scene, registry, communicator);
   RunOptions options;
-  options.folder = outcome.folder;
-  options.resume = run.resume;
+  options.results = &folder;
+  options.resume = run.use.resume;
+  options.announce = true;
   options.quiet = run.quiet;
   options.stop_after = run.stop_after;
+  options.time_limit = run.time_limit;
   try {
     outcome.results = simulation.run(options);
-  } catch (const Error&) {
-    throw RunFailure(record_failure(simulation, outcome.folder, communicator));
+  } catch (const std::exception&) {
+    if (!folder.has_begun()) throw;
+    throw RunFailure(record_failure(simulation, folder, communicator));
   }
-  if (!run.stop_after) outcome.checks = evaluate_checks(scene.root.list("checks"), outcome.results);
+  outcome.interruption = simulation.interruption();
+  if (!run.stop_after && !outcome.interruption)
+    outcome.checks = judge(simulation, scene, outcome.results, folder, communicator);
   outcome.timings = simulation.timings();
   outcome.unknowns = simulation.unknowns();
-  const nlohmann::json summary = simulation.summary(outcome.checks);
+  outcome.steps = simulation.step_number();
+  outcome.time = simulation.time();
+  const nlohmann::json summary = write_summary(simulation, outcome.checks, folder, communicator);
   outcome.peak_memory = summary["peak_memory_bytes"];
-  if (communicator.rank() == 0) {
-    write_summary(summary, outcome.folder);
-    if (run.pictures) outcome.picture = make_picture(scene, outcome.folder);
-  }
+  folder.finish(simulation.status());
+  if (communicator.rank() == 0 && run.pictures) outcome.picture = make_picture(scene, folder);
   return outcome;
 }
 

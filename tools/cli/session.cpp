@@ -4,13 +4,12 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
-#include <vector>
 
 #include "command.hpp"
+#include "seam/base/all_or_none.hpp"
 #include "seam/base/communicator.hpp"
 #include "seam/base/stopwatch.hpp"
 
@@ -36,26 +35,6 @@ bool all_ranks_come() {
   return false;
 }
 
-/// The different messages of the ranks, in the order of the ranks.
-std::string distinct_messages(const std::string& mine) {
-  const Communicator communicator(failures);
-  std::vector<char> bytes(mine.begin(), mine.end());
-  bytes.push_back('\0');
-  std::vector<std::string> distinct;
-  std::string current;
-  for (const char c : communicator.gather_all(bytes)) {
-    if (c != '\0') {
-      current += c;
-      continue;
-    }
-    if (std::find(distinct.begin(), distinct.end(), current) == distinct.end()) distinct.push_back(current);
-    current.clear();
-  }
-  std::string all;
-  for (const std::string& message : distinct) all += (all.empty() ? "" : "\n") + message;
-  return all;
-}
-
 }  // namespace
 
 std::string agree_on_exception() {
@@ -64,7 +43,7 @@ std::string agree_on_exception() {
   MPI_Comm_size(MPI_COMM_WORLD, &size);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (size == 1) return failure.message;
-  if (all_ranks_come()) return distinct_messages(failure.message);
+  if (all_ranks_come()) return distinct_texts(Communicator(failures), failure.message);
   fmt::print(stderr, "{}\n(on rank {} of {} only: all are stopped)\n", failure.message, rank, size);
   std::fflush(nullptr);
   MPI_Abort(MPI_COMM_WORLD, failure.code);

@@ -27,6 +27,7 @@ struct Options {
   std::vector<std::string> set;
   fs::path folder;
   std::string record;
+  bool overwrite = false;
 };
 
 /// The first line of a file of the form "key : value" with that key; "" when there is none.
@@ -81,18 +82,27 @@ std::string last_line(const fs::path& file) {
   return last;
 }
 
-/// What a case's run left: its summary, or nothing when it broke off early.
-nlohmann::json read_summary(const fs::path& folder) {
-  std::ifstream in(folder / "summary.json");
+nlohmann::json read_json(const fs::path& file) {
+  std::ifstream in(file);
   return nlohmann::json::parse(in, nullptr, false);
+}
+
+/// What a case's run left: its summary, or nothing when it broke off early.
+nlohmann::json read_summary(const fs::path& folder) { return read_json(folder / "summary.json"); }
+
+/// The mark of the run that wrote a folder, "" when there is none.
+std::string run_of(const fs::path& folder) {
+  const nlohmann::json record = read_json(folder / "run.json");
+  return record.is_object() ? record.value("run", "") : "";
 }
 
 /// Runs a case in a process of its own, so that its seconds and its peak memory are its own.
 StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options& options,
                      const fs::path& folder, nlohmann::json& versions) {
-  StudyRecord record{one, "", {}};
-  fs::remove_all(folder);
+  StudyRecord record;
+  record.of = one;
   fs::create_directories(folder);
+  const std::string before = run_of(folder);
   std::vector<std::string> call{own_executable().string(),
                                 "run",
                                 options.scene,
@@ -106,11 +116,18 @@ StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options&
   set.insert(set.end(), own.begin(), own.end());
   for (const std::string& value : set) call.insert(call.end(), {"--set", value});
 
+  if (options.overwrite) call.emplace_back("--overwrite");
+
   const fs::path log = folder / "log.txt";
   const int code = run_program(call, log);
-  const nlohmann::json summary = read_summary(folder);
+  record.code = code;
+  // A run that did not even begin has left the files of the one before as they were.
+  record.has_begun = run_of(folder) != before;
+  const nlohmann::json summary = record.has_begun ? read_summary(folder) : nlohmann::json();
+  const std::string status = summary.is_object() ? summary.value("status", "") : "";
+  record.is_interrupted = status == "interrupted";
   // A check that fails makes exit code 1, too: on coarse meshes that is what a study is there to show.
-  const bool is_finished = summary.is_object() && summary.value("status", "") == "finished";
+  const bool is_finished = status == "finished";
   if (!is_finished) {
     record.problem = summary.is_object() ? summary.value("reason", last_line(log)) : last_line(log);
     if (record.problem.empty())
@@ -123,6 +140,7 @@ StudyRecord run_case(const StudyPlan& plan, const StudyCase& one, const Options&
 
 void read_measures(StudyRecord& record, const StudyReport& report, const fs::path& folder) {
   if (!record.problem.empty() && !report.plan.until_failure) return;
+  if (!record.has_begun) return;
   const nlohmann::json summary = read_summary(folder);
   for (const std::string& column : report.columns()) {
     try {
@@ -169,6 +187,23 @@ bool draw(const StudyReport& report, const fs::path& folder) {
   return false;
 }
 
+/// @throws Error when the tables that a study writes are there, and no study wrote them
+void refuse_foreign_tables(const fs::path& folder) {
+  const fs::path table = folder / "study.csv";
+  bool is_own = !fs::exists(fs::symlink_status(folder / "study.md"));
+  if (fs::exists(fs::symlink_status(table))) {
+    std::ifstream in(table);
+    is_own = false;
+    for (std::string line; !is_own && std::getline(in, line) && line.starts_with('#');)
+      is_own = line.starts_with("# command: seam study");
+  }
+  if (!is_own)
+    throw Error(
+        fmt::format("'{}' holds tables (study.csv, study.md) that `seam study` did not write; choose another "
+                    "--folder, or replace them with --overwrite",
+                    folder.string()));
+}
+
 void write(const StudyReport& report, const fs::path& folder) {
   write_text_atomically((folder / "study.csv").string(), csv(report));
   const bool has_picture = draw(report, folder);
@@ -193,6 +228,7 @@ int run(const Options& options) {
   const fs::path folder = options.folder.empty()
                               ? fs::path("results") / (fs::path(options.scene).stem().string() + "-study")
                               : options.folder;
+  if (!options.overwrite) refuse_foreign_tables(folder);
   nlohmann::json versions;
   int bad = 0;
   for (std::size_t i = 0; i < report.plan.cases.size(); ++i) {
@@ -200,6 +236,10 @@ int run(const Options& options) {
     StudyRecord record = run_case(report.plan, report.plan.cases[i], options, own, versions);
     read_measures(record, report, own);
     show(report, record);
+    if (record.is_interrupted) {
+      fmt::print(stderr, "the study is interrupted; its cases so far are in {}\n", folder.string());
+      return record.code;
+    }
     bad += record.problem.empty() || report.plan.until_failure ? 0 : 1;
     report.records.push_back(std::move(record));
   }
@@ -229,6 +269,8 @@ Command study_command(CLI::App& parent) {
   app->add_option("--set", options->set, "replace a value in all runs: key.key=value; may be repeated")
       ->take_all();
   app->add_option("--folder", options->folder, "where results go; default results/<scene>-study");
+  app->add_flag("--overwrite", options->overwrite,
+                "replace what is in the folders of the cases, whatever wrote it");
   app->add_option("--record", options->record, "copy table and picture to docs/results/<name>, too");
   return {app, [options] { return run(*options); }};
 }

@@ -17,6 +17,9 @@ struct StudyRecord {
   StudyCase of;
   std::string problem;                    ///< why there are no numbers, "" when there are
   std::map<std::string, double> numbers;  ///< by column
+  int code = 0;                           ///< that the run ended with
+  bool has_begun = false;                 ///< whether it left a summary of its own
+  bool is_interrupted = false;            ///< by a signal
 };
 
 /// A study that was run.

@@ -37,7 +37,7 @@ pid_t start(const std::vector<std::string>& arguments, int out, int err) {
 int run_program(const std::vector<std::string>& arguments, const std::filesystem::path& output) {
   int file = -1;
   if (!output.empty()) {
-    file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (file < 0) return 127;
   }
   const pid_t child = start(arguments, file, file);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "seam/base/communicator.hpp"
 #include "seam/output/pvd.hpp"
+#include "seam/output/results_folder.hpp"
 #include "seam/output/vtu.hpp"
 
 namespace seam {
@@ -15,15 +15,18 @@ namespace seam {
 class PieceSeries {
  public:
   /// @param resume_time keep what an existing series holds up to this time; negative: start afresh
-  PieceSeries(const Communicator& communicator, std::filesystem::path folder, std::string name,
-              double resume_time);
-  /// Collective; the caller waits for all ranks before it counts on the files. All pieces have the same
-  /// arrays.
+  /// Collective. @throws FileError on all ranks
+  PieceSeries(const Communicator& communicator, ResultsFolder& folder, std::string name, double resume_time);
+  /// Collective. All pieces have the same arrays. @throws FileError on all ranks
   void write(long step_number, double time, const VtuPiece& piece);
 
  private:
+  /// Of one rank's piece.
+  [[nodiscard]] std::string piece_name(const std::string& stem, int rank) const;
+  void claim(const std::string& stem, long step_number);
+  void write_files(const std::string& stem, double time, const VtuPiece& piece);
   Communicator communicator_;
-  std::filesystem::path folder_;
+  ResultsFolder* folder_;
   std::string name_;
   PvdSeries series_;
 };

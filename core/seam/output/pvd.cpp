@@ -37,6 +37,8 @@ PvdSeries PvdSeries::resume(const std::string& path, double last_time) {
 }
 
 void PvdSeries::add(double time, const std::string& file) {
+  // A run that is resumed may write the state it starts from once more.
+  if (!entries_.empty() && entries_.back().first == time) entries_.pop_back();
   entries_.emplace_back(time, file);
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"

@@ -18,6 +18,7 @@ class PvdSeries {
   /// @throws Error when the file is there but is no .pvd file
   static PvdSeries resume(const std::string& path, double last_time);
 
+  /// Replaces the last entry when that is of the same time.
   /// @param file relative to the folder of the .pvd file
   /// @throws Error when the file cannot be written
   void add(double time, const std::string& file);

@@ -100,7 +100,7 @@ VtuPiece ghost_faces_piece(Field& field) {
 
 }  // namespace
 
-CutOutput::CutOutput(Problem& problem, const std::filesystem::path& folder, double resume_time)
+CutOutput::CutOutput(Problem& problem, ResultsFolder& folder, double resume_time)
     : communicator_(problem.communicator()) {
   const auto series = [&](const std::string& name) {
     return PieceSeries(communicator_, folder, name, resume_time);

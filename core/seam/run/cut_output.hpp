@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "seam/output/piece_series.hpp"
@@ -16,7 +15,7 @@ namespace seam {
 class CutOutput {
  public:
   /// @param resume_time as for PieceSeries
-  CutOutput(Problem& problem, const std::filesystem::path& folder, double resume_time);
+  CutOutput(Problem& problem, ResultsFolder& folder, double resume_time);
   /// True when some field is cut.
   [[nodiscard]] bool has_fields() const { return !fields_.empty(); }
   /// Collective.

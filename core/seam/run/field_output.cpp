@@ -120,8 +120,7 @@ VtuPiece rigid_piece(const FieldEntry& entry, const Space& shape) {
 
 }  // namespace
 
-FieldOutput::FieldOutput(Problem& problem, const std::filesystem::path& folder, double resume_time)
-    : problem_(problem) {
+FieldOutput::FieldOutput(Problem& problem, ResultsFolder& folder, double resume_time) : problem_(problem) {
   for (const FieldEntry& entry : problem_.fields())
     series_.emplace_back(problem_.communicator(), folder, entry.name, resume_time);
   MPI_Barrier(problem_.communicator().handle());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "seam/output/piece_series.hpp"
@@ -14,7 +13,7 @@ namespace seam {
 class FieldOutput {
  public:
   /// @param resume_time keep what existing series hold up to this time; negative: start afresh
-  FieldOutput(Problem& problem, const std::filesystem::path& folder, double resume_time);
+  FieldOutput(Problem& problem, ResultsFolder& folder, double resume_time);
   /// Collective.
   void write(long step_number, const TimePoint& at);
 

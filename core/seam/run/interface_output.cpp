@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/base/all_or_none.hpp"
 #include "seam/output/atomic_file.hpp"
 
 namespace seam {
@@ -24,8 +25,8 @@ void put_place(const Element& element, int point, std::size_t dimension, double*
 
 }  // namespace
 
-InterfaceOutput::InterfaceOutput(const Problem& problem, const std::filesystem::path& folder)
-    : communicator_(problem.communicator()), folder_(folder / "interfaces") {
+InterfaceOutput::InterfaceOutput(const Problem& problem, ResultsFolder& folder)
+    : communicator_(problem.communicator()), folder_(&folder) {
   for (const InterfaceMeasure& measure : problem.measures()) {
     if (measure.shares.empty()) continue;
     Interface& interface = interfaces_[measure.interface];
@@ -77,22 +78,30 @@ std::vector<double> InterfaceOutput::rows(const Interface& interface, const Time
   return result;
 }
 
+void InterfaceOutput::write_table(const std::string& name, long step_number, double time,
+                                  const std::vector<double>& table) const {
+  const Interface& interface = interfaces_.at(name);
+  std::vector<std::string> header(axes, axes + interface.dimension);
+  for (int d = 0; d < interface.dimension; ++d) header.push_back(fmt::format("body_{}", axes[d]));
+  header.emplace_back("weight");
+  for (const Column& column : interface.columns)
+    for (int c = 0; c < column.components; ++c)
+      header.push_back(column.components == 1 ? column.name : fmt::format("{}.{}", column.name, axes[c]));
+  std::string text = fmt::format("time,{}\n", fmt::join(header, ","));
+  for (auto row = table.begin(); row != table.end(); row += static_cast<std::ptrdiff_t>(header.size()))
+    text += fmt::format("{:.12g},{:.9g}\n", time,
+                        fmt::join(row, row + static_cast<std::ptrdiff_t>(header.size()), ","));
+  const std::string file = fmt::format("interfaces/{}-{:08}.csv", name, step_number);
+  folder_->claim(file, step_number);
+  write_text_atomically((folder_->path() / file).string(), text);
+}
+
 void InterfaceOutput::write(long step_number, const TimePoint& at) const {
   for (const auto& [name, interface] : interfaces_) {
     const std::vector<double> table = communicator_.gather_all(rows(interface, at));
-    if (communicator_.rank() != 0) continue;
-    std::vector<std::string> header(axes, axes + interface.dimension);
-    for (int d = 0; d < interface.dimension; ++d) header.push_back(fmt::format("body_{}", axes[d]));
-    header.emplace_back("weight");
-    for (const Column& column : interface.columns)
-      for (int c = 0; c < column.components; ++c)
-        header.push_back(column.components == 1 ? column.name : fmt::format("{}.{}", column.name, axes[c]));
-    std::string text = fmt::format("time,{}\n", fmt::join(header, ","));
-    for (auto row = table.begin(); row != table.end(); row += static_cast<std::ptrdiff_t>(header.size()))
-      text += fmt::format("{:.12g},{:.9g}\n", at.time,
-                          fmt::join(row, row + static_cast<std::ptrdiff_t>(header.size()), ","));
-    std::filesystem::create_directories(folder_);
-    write_text_atomically((folder_ / fmt::format("{}-{:08}.csv", name, step_number)).string(), text);
+    all_or_none<FileError>(communicator_, [&, &of = name] {
+      if (communicator_.rank() == 0) write_table(of, step_number, at.time, table);
+    });
   }
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "seam/output/results_folder.hpp"
 #include "seam/solve/problem.hpp"
 
 namespace seam {
@@ -17,10 +17,10 @@ namespace seam {
 /// interface that does not count for it.
 class InterfaceOutput {
  public:
-  InterfaceOutput(const Problem& problem, const std::filesystem::path& folder);
+  InterfaceOutput(const Problem& problem, ResultsFolder& folder);
   /// True when some coupling measures something.
   [[nodiscard]] bool has_interfaces() const { return !interfaces_.empty(); }
-  /// Collective.
+  /// Collective. @throws FileError on all ranks
   void write(long step_number, const TimePoint& at) const;
 
  private:
@@ -35,9 +35,11 @@ class InterfaceOutput {
     std::vector<Domain> domains;
     std::vector<Column> columns;
   };
+  void write_table(const std::string& name, long step_number, double time,
+                   const std::vector<double>& table) const;
   [[nodiscard]] static std::vector<double> rows(const Interface& interface, const TimePoint& at);
   Communicator communicator_;
-  std::filesystem::path folder_;
+  ResultsFolder* folder_;
   std::map<std::string, Interface> interfaces_;
 };
 

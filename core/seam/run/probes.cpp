@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/run/probes.hpp"
 
-#include <fmt/os.h>
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace seam {
 
@@ -113,21 +111,6 @@ void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
       results.series[entry.name + "." + integral.name].push_back(values.at(0));
     }
   }
-}
-
-void write_series(const std::string& path, const Results& results) {
-  {
-    auto out = fmt::output_file(path + ".part");
-    std::vector<std::string> names;
-    for (const auto& entry : results.series) names.push_back(entry.first);
-    out.print("time{}{}\n", names.empty() ? "" : ",", fmt::join(names, ","));
-    for (std::size_t k = 0; k < results.time.size(); ++k) {
-      out.print("{}", results.time[k]);
-      for (const auto& entry : results.series) out.print(",{}", entry.second[k]);
-      out.print("\n");
-    }
-  }
-  std::filesystem::rename(path + ".part", path);
 }
 
 }  // namespace seam

@@ -35,7 +35,4 @@ class Probe {
 /// Appends the integrals that each field's physics declares, as `field.name`. Collective.
 void record_integrals(Problem& problem, const TimePoint& at, Results& results);
 
-/// Writes all series as a CSV file with one line per step.
-void write_series(const std::string& path, const Results& results);
-
 }  // namespace seam

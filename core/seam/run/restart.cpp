@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/run/restart.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "seam/base/all_or_none.hpp"
 #include "seam/base/checksum.hpp"
+#include "seam/output/safe_file.hpp"
 
 namespace seam {
 namespace {
@@ -88,31 +88,6 @@ FieldCut::Memory decisions(const Mesh& mesh, const std::vector<double>& all) {
   return memory;
 }
 
-void write_durably(const std::filesystem::path& file, const std::string& bytes) {
-  const std::filesystem::path part = file.string() + ".part";
-  const int handle = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  bool good = handle >= 0;
-  for (std::size_t at = 0; good && at < bytes.size();) {
-    const ssize_t written = ::write(handle, bytes.data() + at, bytes.size() - at);
-    good = written > 0;
-    at += static_cast<std::size_t>(std::max<ssize_t>(written, 0));
-  }
-  good = good && ::fsync(handle) == 0;
-  if (handle >= 0) ::close(handle);
-  if (!good)
-    throw Error(fmt::format("cannot write the restart point '{}': is the disk full?", part.string()));
-  std::filesystem::rename(part, file);
-}
-
-std::vector<std::filesystem::path> restart_files(const std::filesystem::path& folder) {
-  std::vector<std::filesystem::path> files;
-  if (std::filesystem::is_directory(folder))
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().extension() == ".restart") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
 std::string read_all(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Error(fmt::format("cannot read the restart point '{}'", file.string()));
@@ -144,7 +119,7 @@ nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes
 }  // namespace
 
 void write_restart(const std::filesystem::path& file, const Problem& problem, const RunState& state,
-                   const std::string& scene_text) {
+                   const std::string& run) {
   nlohmann::json header;
   header["time"] = state.time;
   header["step"] = state.step;
@@ -152,7 +127,7 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   header["largest"] = state.largest;
   header["iterations"] = state.iterations;
   header["rejected_steps"] = state.rejected_steps;
-  header["scene_checksum"] = checksum(scene_text);
+  header["run"] = run;
   // Series are no JSON: they may be infinite, as a gap is where nothing is opposite.
   header["times"] = state.results.time.size();
   header["series"] = nlohmann::json::array();
@@ -174,7 +149,8 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
     }
   for (const FieldEntry& entry : problem.fields())
     if (entry.cut) append(collect_decisions(entry));
-  if (problem.communicator().rank() == 0) {
+  all_or_none<FileError>(problem.communicator(), [&] {
+    if (problem.communicator().rank() != 0) return;
     // Aligns the doubles that follow.
     std::string text = header.dump();
     text.resize((text.size() + 7) / 8 * 8, ' ');
@@ -184,10 +160,8 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
     bytes.append(reinterpret_cast<const char*>(payload.data()), payload.size() * sizeof(double));
     const std::uint64_t sum = checksum(bytes);
     bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
-    std::filesystem::create_directories(file.parent_path());
-    write_durably(file, bytes);
-  }
-  MPI_Barrier(problem.communicator().handle());
+    write_whole_file(file.string(), bytes, Durability::on_disk);
+  });
 }
 
 RunState read_restart(const std::filesystem::path& file, Problem& problem) {
@@ -205,6 +179,11 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   state.time = header["time"];
   state.step = header["step"];
   state.step_number = header["step_number"];
+  if (!(state.step > 0) || state.step_number < 0)
+    throw Error(
+        fmt::format("the restart point '{}' holds a step of {} s and the number {}: expected a step "
+                    "above 0 and a number from 0 on; resume from an older one",
+                    file.string(), state.step, state.step_number));
   state.largest = header["largest"].get<std::vector<double>>();
   state.iterations = header["iterations"].get<std::vector<int>>();
   state.rejected_steps = header["rejected_steps"];
@@ -240,26 +219,19 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   return state;
 }
 
-std::filesystem::path latest_restart(const std::filesystem::path& folder,
+std::filesystem::path latest_restart(const std::vector<std::filesystem::path>& points, const std::string& run,
                                      std::vector<std::string>& warnings) {
-  auto files = restart_files(folder);
-  for (; !files.empty(); files.pop_back()) {
+  for (const std::filesystem::path& point : points) {
     try {
       const double* payload = nullptr;
       std::size_t count = 0;
-      parse(files.back(), read_all(files.back()), payload, count);
-      return files.back();
+      if (parse(point, read_all(point), payload, count).value("run", "") == run) return point;
+      warnings.push_back(fmt::format("the restart point '{}' was written by another run", point.string()));
     } catch (const Error& error) {
       warnings.emplace_back(error.what());
     }
   }
   return {};
-}
-
-void prune_restarts(const std::filesystem::path& folder, long keep) {
-  const auto files = restart_files(folder);
-  for (std::size_t k = 0; k + static_cast<std::size_t>(keep) < files.size(); ++k)
-    std::filesystem::remove(files[k]);
 }
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "seam/run/results.hpp"
 #include "seam/solve/problem.hpp"
@@ -23,18 +24,19 @@ struct RunState {
 /// Writes the states of all fields and `state` as one file, by global node numbers, so that any number of
 /// ranks can read it. The file gets its name only when it is complete and on disk: a run that is killed while
 /// writing loses nothing but this point. Collective.
+/// @param run which run it belongs to, see ResultsFolder::run()
+/// @throws FileError on all ranks
 void write_restart(const std::filesystem::path& file, const Problem& problem, const RunState& state,
-                   const std::string& scene_text);
+                   const std::string& run);
 
 /// Reads a restart point into the problem. Collective.
 /// @throws Error when the file is damaged or belongs to other fields
 RunState read_restart(const std::filesystem::path& file, Problem& problem);
 
-/// The newest undamaged restart point of a folder, "" if there is none.
-/// @param warnings gets a line for every damaged one that was passed over
-std::filesystem::path latest_restart(const std::filesystem::path& folder, std::vector<std::string>& warnings);
-
-/// Deletes all but the newest `keep` restart points of a folder.
-void prune_restarts(const std::filesystem::path& folder, long keep);
+/// The first of some restart points that is undamaged and of the given run, "" if there is none among them.
+/// @param points the newest first
+/// @param warnings gets a line for every one that was passed over
+std::filesystem::path latest_restart(const std::vector<std::filesystem::path>& points, const std::string& run,
+                                     std::vector<std::string>& warnings);
 
 }  // namespace seam

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "seam/base/diagnostics.hpp"
 
@@ -45,6 +46,17 @@ void check_numbers(const Results& results) {
           fmt::format("'{}' is no number at t = {:.6g}: its quantity gives 0/0 or the like somewhere "
                       "in the field",
                       name, results.time.back()));
+}
+
+void Results::append(const Results& row) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [name, values] : row.series) series[name].resize(time.size(), none);
+  time.insert(time.end(), row.time.begin(), row.time.end());
+  for (auto& [name, values] : series) {
+    const auto found = row.series.find(name);
+    if (found != row.series.end()) values.insert(values.end(), found->second.begin(), found->second.end());
+    values.resize(time.size(), none);
+  }
 }
 
 std::vector<std::string> Results::names() const {

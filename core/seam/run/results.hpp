@@ -13,6 +13,9 @@ struct Results {
   std::map<std::string, std::vector<double>> series;  ///< as long as `time`
   std::map<std::string, double> once;                 ///< error norms, counts: known at the end only
 
+  /// Adds the numbers of a further time. Where a series has no number, now or so far, it gets nan: all have
+  /// as many as there are times. @param row of one time
+  void append(const Results& row);
   /// Value of a series at the end, or of a number known at the end.
   /// @throws Error listing the nearest known name
   [[nodiscard]] double value(const std::string& name) const;

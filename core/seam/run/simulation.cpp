@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seam/base/all_or_none.hpp"
+#include "seam/base/memory.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
 #include "seam/run/derived.hpp"
 #include "seam/run/error_norms.hpp"
+#include "seam/run/interruption.hpp"
 #include "seam/run/progress.hpp"
 
 namespace seam {
@@ -18,7 +21,8 @@ namespace seam {
 std::map<std::string, std::shared_ptr<const MeshData>> load_meshes(const Scene& scene) {
   std::map<std::string, std::shared_ptr<const MeshData>> meshes;
   for (const auto& [name, parameters] : scene.root.map("meshes"))
-    meshes[name] = std::make_shared<MeshData>(load_mesh(parameters));
+    meshes[name] = needing_memory(fmt::format("the mesh '{}'", name), parameters.where(),
+                                  [&] { return std::make_shared<MeshData>(load_mesh(parameters)); });
   return meshes;
 }
 
@@ -60,8 +64,13 @@ void Simulation::build_fields(const Registry& registry) {
   for (const auto& [name, parameters] : scene_.root.map("fields")) {
     const std::string& mesh = parameters.text("mesh");
     if (!meshes.contains(mesh))
-      meshes[mesh] = std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh));
-    problem_.add_field(name, meshes[mesh], registry.create<Physics>("field", parameters));
+      meshes[mesh] = needing_memory(
+          fmt::format("the distributed mesh '{}' ({} cells)", mesh, meshes_.at(mesh)->cell_count()),
+          parameters.where(),
+          [&] { return std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh)); });
+    needing_memory(fmt::format("the unknowns of the field '{}'", name), parameters.where(), [&] {
+      problem_.add_field(name, meshes[mesh], registry.create<Physics>("field", parameters));
+    });
   }
 }
 
@@ -118,6 +127,13 @@ class Simulation::Setup final : public InterfaceSetup {
 };
 
 namespace {
+
+/// Of an entry of one of a scene's maps.
+Location place_of(const Scene& scene, const std::string& map, const std::string& name) {
+  for (const auto& [key, parameters] : scene.root.map(map))
+    if (key == name) return parameters.where();
+  return {};
+}
 
 bool speaks_of(const Coupling::SideTerm& term, int side) {
   return std::ranges::any_of(term.operands, [&](const Operand& operand) { return operand.side == side; });
@@ -176,7 +192,9 @@ void Simulation::build_couplings(const Registry& registry) {
   std::map<std::string, Built> interfaces;
   for (const auto& [name, interface] : interfaces_) {
     Setup setup(*this, interface->fields(), extra_degree[name]);
-    interfaces[name] = {interface->build(setup), setup.sides};
+    auto parts = needing_memory(fmt::format("the interface '{}'", name), place_of(scene_, "interfaces", name),
+                                [&, &of = interface] { return of->build(setup); });
+    interfaces[name] = {std::move(parts), setup.sides};
     problem_.name_interface(name, interfaces[name].parts);
   }
   std::vector<Coupling::Neighbour> neighbours;
@@ -219,12 +237,40 @@ void Simulation::build_couplings(const Registry& registry) {
   }
 }
 
+/// The restart point to go on from, "" when the run starts afresh. Collective.
+/// @throws Error when there are some, and all are damaged
+std::filesystem::path Simulation::choose_restart() {
+  std::string chosen;
+  all_or_none(communicator_, [&] {
+    if (!folder_->resumes()) return;
+    std::vector<std::filesystem::path> points;
+    for (const std::string& name : folder_->restart_points()) points.push_back(folder_->path() / name);
+    std::vector<std::string> damaged;
+    chosen = latest_restart(points, folder_->run(), damaged).string();
+    if (chosen.empty() && !points.empty())
+      throw Error(fmt::format("no restart point can be used:\n  {}\nTo begin anew, say --overwrite",
+                              fmt::join(damaged, "\n  ")));
+    for (const std::string& warning : damaged)
+      fmt::print(stderr, "warning: {}; an older one is used\n", warning);
+  });
+  return from_root(communicator_, chosen);
+}
+
+void Simulation::announce_start(bool resumed) const {
+  if (communicator_.rank() != 0) return;
+  if (resumed)
+    fmt::print(stderr, "continues from t = {:.6g}, step {}\n", state_.time, state_.step_number);
+  else
+    fmt::print(stderr, "no restart point: starts at t = {:.6g}\n", state_.time);
+}
+
 void Simulation::start(const RunOptions& options) {
-  folder_ = options.folder;
-  std::vector<std::string> damaged;
-  const std::filesystem::path point = options.resume ? latest_restart(folder_ / "restart", damaged) : "";
-  for (const std::string& warning : damaged)
-    if (communicator_.rank() == 0) fmt::print(stderr, "warning: {}; an older one is used\n", warning);
+  if (!options.results)
+    own_folder_ = std::make_unique<ResultsFolder>(
+        communicator_, scene_, options.folder,
+        FolderUse{.resume = options.resume, .changed = false, .overwrite = !options.resume});
+  folder_ = options.results ? options.results : own_folder_.get();
+  const std::filesystem::path point = choose_restart();
   const bool resumed = !point.empty();
   if (resumed) {
     state_ = read_restart(point, problem_);
@@ -238,12 +284,23 @@ void Simulation::start(const RunOptions& options) {
     step_->start();
   }
   warn(options);
+  if (options.resume && options.announce) announce_start(resumed);
+  folder_->begin(resumed ? std::optional(state_.step_number) : std::nullopt);
   open_outputs(resumed ? state_.time : -1.0);
-  if (communicator_.rank() == 0) std::filesystem::create_directories(folder_);
-  if (resumed) return;
-  const TimePoint at = time_point(stepper_.start(), 0, stepper_.theta());
-  problem_.assembler().assemble(at, false);
-  record(at);
+  const TimePoint at = time_point(state_.time, 0, stepper_.theta());
+  if (resumed) {
+    last_point_ = at;
+    last_restart_ = state_.step_number;
+  } else {
+    problem_.assembler().assemble(at, false);
+    append_row(at);
+    write_outputs(at);
+  }
+  all_or_none<FileError>(communicator_, [&] {
+    if (communicator_.rank() != 0) return;
+    series_.emplace(*folder_).append(state_.results);
+    events_.emplace(*folder_).open(state_.step_number);
+  });
 }
 
 /// What only the built problem shows.
@@ -262,36 +319,42 @@ void Simulation::warn(const RunOptions& options) {
 
 void Simulation::open_outputs(double resume_time) {
   const Parameters& output = scene_.root.object("output");
-  if (output.boolean("fields")) fields_ = std::make_unique<FieldOutput>(problem_, folder_, resume_time);
+  if (output.boolean("fields")) fields_ = std::make_unique<FieldOutput>(problem_, *folder_, resume_time);
   if (output.boolean("interfaces")) {
-    points_ = std::make_unique<InterfaceOutput>(problem_, folder_);
+    points_ = std::make_unique<InterfaceOutput>(problem_, *folder_);
     if (!points_->has_interfaces())
       throw Error(output.where("interfaces"),
                   "no coupling measures anything on its interface, so that there is nothing to write");
   }
   if (!output.boolean("cut")) return;
-  cut_ = std::make_unique<CutOutput>(problem_, folder_, resume_time);
+  cut_ = std::make_unique<CutOutput>(problem_, *folder_, resume_time);
   if (!cut_->has_fields())
     throw Error(output.where("cut"),
                 "no interface cuts a body out of a field, so that there is no cut to write");
 }
 
 const Results& Simulation::run(const RunOptions& options) {
-  run_watch_ = Stopwatch();
+  run_watch_ = restart_watch_ = Stopwatch();
   start(options);
   double step = state_.step;
   long taken = 0;
   while (!stepper_.finished(state_.time)) {
     if (options.stop_after && taken++ == *options.stop_after) break;
+    if (!attend(options)) break;
     const double from = state_.time, until = stepper_.target(from, step);
-    if (try_step(until)) {
+    const bool is_taken = needing_memory(
+        fmt::format("the step from t = {:.6g} to {:.6g}, with {} unknowns", from, until, unknowns()), {},
+        [&] { return try_step(until); });
+    if (is_taken) {
       step = stepper_.after_success(until, step, until - from, step_->error(), reports_.back().iterations());
       state_.step = step;
+      note_step(until - from);
       if (restart_due()) save_restart();
       show_progress(options, run_watch_.seconds());
       continue;
     }
     ++state_.rejected_steps;
+    if (events_) events_->refuse(until - from, reports_.back());
     const std::optional<double> shorter = stepper_.after_failure(until - from);
     if (!shorter)
       throw Error(fmt::format("the step from t = {:.6g} fails down to a length of {:.2g}: {}", from,
@@ -299,12 +362,66 @@ const Results& Simulation::run(const RunOptions& options) {
     step = *shorter;
   }
   if (stepper_.finished(state_.time)) finish_errors();
+  if (interruption_) keep_state();
   finish_timings();
+  note_end();
+  if (own_folder_) {
+    own_folder_->finish(status());
+    own_folder_.reset();
+    folder_ = nullptr;
+  }
   return state_.results;
 }
 
+/// What came from outside since the last step. Collective. @returns whether to go on
+bool Simulation::attend(const RunOptions& options) {
+  const double minutes = scene_.root.object("output").object("restart").number("minutes");
+  Attention mine;
+  mine.signal = SignalWatch::caught();
+  if (communicator_.rank() == 0) {  // whose clock counts
+    mine.out_of_time = timings_.setup + run_watch_.seconds() > options.time_limit;
+    mine.restart_due = minutes > 0 && restart_watch_.seconds() > 60 * minutes;
+  }
+  const Attention all = agree(communicator_, mine);
+  if (all.signal != 0)
+    interruption_ = {all.signal, fmt::format("{} was caught", signal_name(all.signal))};
+  else if (all.out_of_time)
+    interruption_ = {0, fmt::format("the time limit of {:.6g} s is over", options.time_limit)};
+  else if (all.restart_due && last_restart_ != state_.step_number)
+    save_restart();
+  return !interruption_;
+}
+
+/// A step was taken: its row and its line. Collective.
+void Simulation::note_step(double length) {
+  all_or_none<FileError>(communicator_, [&] {
+    if (communicator_.rank() != 0) return;
+    series_->append(state_.results);
+    events_->take(state_.step_number, state_.time, length, reports_.back(), run_watch_.seconds());
+  });
+}
+
+void Simulation::note_end() {
+  all_or_none<FileError>(communicator_, [&] {
+    if (events_)
+      events_->end(state_.step_number, state_.time, status(),
+                   interruption_ ? interruption_->reason : failure_, run_watch_.seconds());
+  });
+}
+
+/// Puts the last good state on disk. Collective.
+void Simulation::keep_state() {
+  if (last_restart_ != state_.step_number) save_restart();
+  if (last_fields_ != state_.step_number) write_fields(last_point_);
+}
+
+std::string Simulation::status() const {
+  if (!failure_.empty()) return "failed";
+  if (interruption_) return "interrupted";
+  return stepper_.finished(state_.time) ? "finished" : "stopped";
+}
+
 void Simulation::finish_timings() {
-  if (!state_.results.time.empty()) write_results();
   timings_.cut = problem_.cut_seconds();
   timings_.pattern = problem_.assembler().pattern_seconds();
   timings_.assembly = problem_.assembler().assembly_seconds();
@@ -316,8 +433,8 @@ void Simulation::record_failure(const std::string& reason) {
   finish_timings();
   if (state_.results.time.empty()) return;  // it failed before there was a state
   problem_.update_spaces(last_point_);
-  if (last_fields_ != state_.step_number) write_fields(last_point_);
-  save_restart();
+  keep_state();
+  note_end();
 }
 
 double Simulation::last_step() const {
@@ -359,35 +476,41 @@ bool Simulation::try_step(double until) {
     step_->rewind();
     return false;
   }
+  try {
+    append_row(step_->at());
+  } catch (...) {
+    step_->rewind();
+    throw;
+  }
   step_->accept();
   state_.time = until;
   ++state_.step_number;
   state_.iterations.push_back(reports_.back().iterations());
   state_.largest = step_->largest();
-  record(step_->at());
+  write_outputs(step_->at());
   return true;
 }
 
-void Simulation::record(const TimePoint& at) {
+/// All numbers of a state, or none: what is recorded is a table.
+void Simulation::append_row(const TimePoint& at) {
   const Stopwatch watch;
-  state_.results.time.push_back(state_.time);
-  for (const Probe& probe : probes_) probe.record(problem_, at, state_.results);
-  record_integrals(problem_, at, state_.results);
-  check_numbers(state_.results);
-  record_formulas(scene_, state_.results);
+  Results row;
+  row.time.push_back(at.time);
+  for (const Probe& probe : probes_) probe.record(problem_, at, row);
+  record_integrals(problem_, at, row);
+  check_numbers(row);
+  record_formulas(scene_, row);
+  state_.results.append(row);
+  timings_.output += watch.seconds();
+}
+
+void Simulation::write_outputs(const TimePoint& at) {
+  const Stopwatch watch;
   const long every = scene_.root.object("output").integer("every");
   const bool last = state_.time >= stepper_.end();
   last_point_ = at;
   if (state_.step_number % every == 0 || last) write_fields(at);
-  // A file that replaces another one takes as long as many a step.
-  constexpr double often = 1;  // s
-  if (series_watch_.seconds() > often) write_results();
   timings_.output += watch.seconds();
-}
-
-void Simulation::write_results() {
-  if (communicator_.rank() == 0) write_series((folder_ / "series.csv").string(), state_.results);
-  series_watch_ = Stopwatch();
 }
 
 void Simulation::write_fields(const TimePoint& at) {
@@ -404,10 +527,17 @@ bool Simulation::restart_due() const {
 
 void Simulation::save_restart() {
   const Stopwatch watch;
-  const std::filesystem::path folder = folder_ / "restart";
-  write_restart(folder / fmt::format("{:08}.restart", state_.step_number), problem_, state_, scene_.text);
-  if (communicator_.rank() == 0)
-    prune_restarts(folder, scene_.root.object("output").object("restart").integer("keep"));
+  const std::string name = fmt::format("restart/{:08}.restart", state_.step_number);
+  all_or_none<FileError>(communicator_, [&] { folder_->claim(name, state_.step_number); });
+  write_restart(folder_->path() / name, problem_, state_, folder_->run());
+  all_or_none<FileError>(communicator_, [&] {
+    const std::vector<std::string> points = folder_->restart_points();
+    const auto keep =
+        static_cast<std::size_t>(scene_.root.object("output").object("restart").integer("keep"));
+    for (std::size_t k = keep; k < points.size(); ++k) folder_->remove(points[k]);
+  });
+  last_restart_ = state_.step_number;
+  restart_watch_ = Stopwatch();
   timings_.output += watch.seconds();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "seam/run/cut_output.hpp"
 #include "seam/run/field_output.hpp"
 #include "seam/run/interface_output.hpp"
+#include "seam/run/live_files.hpp"
 #include "seam/run/probes.hpp"
 #include "seam/run/restart.hpp"
 #include "seam/run/stepper.hpp"
@@ -23,10 +25,21 @@
 namespace seam {
 
 struct RunOptions {
-  std::filesystem::path folder;    ///< for results; created
+  /// Where results go; none: to `folder`, which is opened for this run alone, as `resume` says.
+  ResultsFolder* results = nullptr;
+  std::filesystem::path folder;    ///< for results; created; what an earlier run wrote there is replaced
   bool resume = false;             ///< continue from the newest restart point in the folder, if there is one
   bool quiet = false;              ///< no progress line
+  bool announce = false;           ///< say where a run that is resumed starts
   std::optional<long> stop_after;  ///< steps to take in this run, for tests of the restart
+  /// No step is begun after so many seconds since the simulation was begun to be built.
+  double time_limit = std::numeric_limits<double>::infinity();
+};
+
+/// Why a run was ended before its end, though nothing was wrong.
+struct Interruption {
+  int signal = 0;      ///< that was caught; 0: the time limit
+  std::string reason;  ///< in words
 };
 
 /// Where the time of a run went, s.
@@ -41,13 +54,20 @@ class Simulation {
   /// @throws Error with places in the scene
   Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator);
 
-  /// Runs to the end. Collective. @throws Error when a step fails for good; then the state is that before the
-  /// step
+  /// Runs to the end, or until a signal that a SignalWatch has caught or the time limit interrupts it: then
+  /// the state is on disk, with a restart point. Collective.
+  /// @throws Error when a step fails for good; then the state is that before the step
   const Results& run(const RunOptions& options);
 
   /// After run() threw on all ranks: puts the last good state on disk, its fields and a restart point,
   /// whatever the scene says about intervals, and keeps the reason for summary(). Collective.
   void record_failure(const std::string& reason);
+  /// Whether there is a state: before run() has set one up there is nothing to be saved.
+  [[nodiscard]] bool has_state() const { return !state_.results.time.empty(); }
+  /// What run() was interrupted by, if it was.
+  [[nodiscard]] const std::optional<Interruption>& interruption() const { return interruption_; }
+  /// "finished", "stopped" (as the options say), "interrupted" or "failed".
+  [[nodiscard]] std::string status() const;
 
   [[nodiscard]] Problem& problem() { return problem_; }
   [[nodiscard]] const Timings& timings() const { return timings_; }
@@ -69,11 +89,17 @@ class Simulation {
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
   void warn(const RunOptions& options);
+  [[nodiscard]] std::filesystem::path choose_restart();
+  void announce_start(bool resumed) const;
   void open_outputs(double resume_time);
+  bool attend(const RunOptions& options);
+  void note_step(double length);
+  void note_end();
+  void keep_state();
   bool try_step(double until);
-  void record(const TimePoint& at);
+  void append_row(const TimePoint& at);
+  void write_outputs(const TimePoint& at);
   void write_fields(const TimePoint& at);
-  void write_results();
   [[nodiscard]] bool restart_due() const;
   void save_restart();
   void finish_timings();
@@ -93,14 +119,19 @@ class Simulation {
   std::unique_ptr<FieldOutput> fields_;
   std::unique_ptr<CutOutput> cut_;
   std::unique_ptr<InterfaceOutput> points_;
-  std::filesystem::path folder_;
+  std::unique_ptr<ResultsFolder> own_folder_;  ///< when none was given
+  ResultsFolder* folder_ = nullptr;
+  std::optional<SeriesFile> series_;
+  std::optional<EventFile> events_;
   std::vector<NewtonReport> reports_;  ///< of all steps, those that were rewound among them
-  Stopwatch run_watch_, series_watch_;
+  Stopwatch run_watch_, restart_watch_;
   Timings timings_;
   TimePoint last_point_;   ///< of the last good state
   long last_fields_ = -1;  ///< step number of the fields written last
-  Diagnostics warnings_;   ///< of what is legal but hardly meant
-  std::string failure_;    ///< why the run ended early, "" if it did not
+  long last_restart_ = -1;
+  Diagnostics warnings_;  ///< of what is legal but hardly meant
+  std::string failure_;   ///< why the run ended early, "" if it did not
+  std::optional<Interruption> interruption_;
 };
 
 /// Reads and distributes the meshes a scene names. Exposed for `seam check`.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 
@@ -20,7 +21,23 @@ std::vector<double> read_times(const std::string& file, const Location& where) {
     throw Error(where,
                 fmt::format("'{}' holds no series of an earlier run; expected the series.csv of one", file));
   std::vector<double> times;
-  while (std::getline(in, line)) times.push_back(std::stod(line));
+  for (int number = 2; std::getline(in, line); ++number) {
+    const std::string word = line.substr(0, line.find(','));
+    const auto bad = [&](const std::string& expected) {
+      return Error(
+          where, fmt::format("line {} of '{}' begins with '{}'; expected {}", number, file, word, expected));
+    };
+    double time = 0;
+    const auto [end, code] = std::from_chars(word.data(), word.data() + word.size(), time);
+    if (code != std::errc{} || end != word.data() + word.size() || !std::isfinite(time))
+      throw bad("a time, as at the beginning of each line of a series.csv");
+    if (!times.empty() && time <= times.back())
+      throw bad(fmt::format("a time after that of the line before, {}", times.back()));
+    times.push_back(time);
+  }
+  if (times.size() < 2)
+    throw Error(where, fmt::format("'{}' holds {} times, so that there is no step in it to take again", file,
+                                   times.size()));
   return times;
 }
 
@@ -61,6 +78,16 @@ void Stepper::read_steps(const Parameters& step) {
 }
 
 double Stepper::target(double time, double planned) const {
+  const double until = aim(time, planned);
+  if (until > time) return until;
+  // Else the run would go on for ever at the same time.
+  throw Error(
+      fmt::format("a step of {:.3g} s from t = {:.17g} does not advance the clock: numbers of that size "
+                  "are {:.2g} apart; take longer steps, or let the time start nearer to 0",
+                  planned, time, std::nextafter(time, HUGE_VAL) - time));
+}
+
+double Stepper::aim(double time, double planned) const {
   const double slack = 1e-10 * (end_ - start_);
   const auto next = std::upper_bound(replay_.begin(), replay_.end(), time + slack);
   if (next != replay_.end()) return std::min(*next, time + planned);

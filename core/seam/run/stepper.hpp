@@ -29,6 +29,7 @@ class Stepper {
   [[nodiscard]] double initial() const { return initial_; }
   /// Where a step that should be `planned` long ends: earlier where a kink or the end comes first, and there
   /// exactly.
+  /// @throws Error when that is not after `time`, since the step is too small beside it
   [[nodiscard]] double target(double time, double planned) const;
   /// The length to plan after a step that succeeded.
   /// @param planned, taken lengths it was to have and had
@@ -42,6 +43,7 @@ class Stepper {
 
  private:
   void read_steps(const Parameters& step);
+  [[nodiscard]] double aim(double time, double planned) const;
   [[nodiscard]] double to_grid(double time) const;
   bool static_ = true, adaptive_ = false, depends_on_time_ = false, two_steps_ = false;
   double theta_ = 1, start_ = 0, end_ = 1;

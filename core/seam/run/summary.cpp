@@ -62,9 +62,9 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["scene_hash"] = scene_hash(scene_);
   s["overrides"] = nlohmann::json::array();
   for (const auto& [path, value] : scene_.overrides) s["overrides"].push_back(path + "=" + value);
-  const bool finished = state_.time >= stepper_.end();
-  s["status"] = !failure_.empty() ? "failed" : finished ? "finished" : "stopped";
+  s["status"] = status();
   if (!failure_.empty()) s["reason"] = failure_;
+  if (interruption_) s["reason"] = interruption_->reason;
   s["time"] = state_.time;
   s["parameters"] = scene_.parameters;
   s["versions"] = {{"fingerprint", SEAM_FINGERPRINT}, {"trilinos", TRILINOS_VERSION_STRING}};

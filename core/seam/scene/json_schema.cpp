@@ -21,6 +21,7 @@ json number(const Parameter& p, const char* type) {
   json plain{{"type", type}};
   if (std::isfinite(p.minimum)) plain[p.minimum_excluded ? "exclusiveMinimum" : "minimum"] = p.minimum;
   if (std::isfinite(p.maximum)) plain[p.maximum_excluded ? "exclusiveMaximum" : "maximum"] = p.maximum;
+  if (p.kind == ValueKind::integer && !std::isfinite(p.maximum)) plain["maximum"] = largest_integer;
   return {{"anyOf", {plain, {{"type", "string"}}}}};
 }
 

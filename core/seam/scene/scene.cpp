@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "seam/scene/cross_check.hpp"
+#include "seam/scene/overrides.hpp"
 #include "seam/scene/validate.hpp"
 #include "seam/scene/yaml_tree.hpp"
 
@@ -96,6 +97,10 @@ void load_plugins(const YamlNode& root, const Scene& scene, PluginHost& host, Re
 
 }  // namespace
 
+void apply_overrides(YamlNode& root, const Overrides& overrides) {
+  for (const auto& [key, value] : overrides) apply(root, key, value);
+}
+
 Scene parse_scene_text(const std::string& text, const std::filesystem::path& path, const Overrides& overrides,
                        PluginHost& host, Registry& registry) {
   static const Schema schema = scene_schema();
@@ -112,7 +117,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
         root.where(),
         fmt::format("found {}, expected the keys of a scene (title, dimension, meshes, ...)", root.found()));
   }
-  for (const auto& [key, value] : overrides) apply(root, key, value);
+  apply_overrides(root, overrides);
   scene.plugins = early_words(root, "plugins");
   load_plugins(root, scene, host, registry);
 

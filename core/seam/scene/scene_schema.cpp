@@ -154,7 +154,8 @@ Schema error_schema() {
 
 Schema output_schema() {
   Schema restart("Points from which an interrupted run continues.");
-  restart.integer("every", "steps between them; 0 for none").at_least(0).otherwise("0");
+  restart.integer("every", "steps between them; 0: by the clock only").at_least(0).otherwise("0");
+  restart.number("minutes", "wall time between them; 0: by steps only").at_least(0).otherwise("10");
   restart.integer("keep", "how many of the last ones are kept").at_least(1).otherwise("2");
 
   Schema schema("What the run writes.");

@@ -220,9 +220,12 @@ class Validator {
   std::optional<Value> integer(const YamlNode& node, const Parameter& p, const std::string& path) {
     const std::optional<double> v = number(node, p, path);
     if (!v) return {};
-    // Beyond 2^53 a double skips whole numbers.
-    if (*v == std::floor(*v) && std::abs(*v) <= 9007199254740992.0)
-      return Value{static_cast<long>(*v), {}, {}};
+    if (std::abs(*v) > static_cast<double>(largest_integer)) {
+      error(node, fmt::format("{}: {} is out of range, expected a whole number of no more than {}", path,
+                              node.found(), largest_integer));
+      return {};
+    }
+    if (*v == std::floor(*v)) return Value{static_cast<long>(*v), {}, {}};
     mismatch(node, p, path);
     return {};
   }

@@ -17,6 +17,9 @@
 
 namespace seam {
 
+/// Whole numbers of a scene are counted with in int.
+constexpr long largest_integer = 2147483647;
+
 /// What validation needs to know, and what it finds out on the way.
 struct ValidationContext {
   const Registry& registry;

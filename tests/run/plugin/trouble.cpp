@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Functions that take their time, or end a run in ways that scenes cannot: for the tests of what is left
+// then.
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include "seam/plugin/plugin.hpp"
+#include "seam/scene/function.hpp"
+
+namespace {
+
+using seam::Function;
+using seam::Parameters;
+
+/// `slow.load` is a constant that takes some seconds to find out, once for each time.
+class Slow final : public Function {
+ public:
+  explicit Slow(const Parameters& p) : seconds_(p.number("seconds")), load_(p.number("load")) {}
+  [[nodiscard]] const std::vector<Part>& parts() const override { return parts_; }
+  void evaluate(int /*part*/, const double* /*x*/, double t, double* value) const override {
+    if (t != last_ && t > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
+    last_ = t;
+    value[0] = load_;
+  }
+
+ private:
+  std::vector<Part> parts_{{"load", 1}};
+  double seconds_, load_;
+  mutable double last_ = 0;
+};
+
+/// `trouble.load` is a constant, until a time at which something happens.
+class Trouble final : public Function {
+ public:
+  explicit Trouble(const Parameters& p)
+      : at_(p.number("at")), load_(p.number("load")), what_(p.text("what")), rank_(p.text("rank")) {}
+  [[nodiscard]] const std::vector<Part>& parts() const override { return parts_; }
+  void evaluate(int /*part*/, const double* /*x*/, double t, double* value) const override {
+    value[0] = load_;
+    const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+    if (t < at_ || rank_ != (rank ? rank : "0")) return;
+    if (what_ == "memory") throw std::bad_alloc();
+    if (what_ == "death") std::raise(SIGKILL);
+    throw std::runtime_error("the library below is out of sorts");
+  }
+
+ private:
+  std::vector<Part> parts_{{"load", 1}};
+  double at_, load_;
+  std::string what_, rank_;
+};
+
+}  // namespace
+
+SEAM_PLUGIN(registry) {
+  seam::Schema slow("A load that takes its time.");
+  slow.number("seconds", "taken once for each time").at_least(0);
+  slow.number("load", "its value");
+  registry.add<Function>(
+      "function", "slow", slow,
+      [](const Parameters& p, const seam::Registry& /*registry*/) { return std::make_unique<Slow>(p); });
+  seam::Schema trouble("A load that ends the run.");
+  trouble.number("at", "when");
+  trouble.number("load", "its value until then");
+  trouble.choice("what", "happens", {"exception", "memory", "death"});
+  trouble.text("rank", "to which it happens").otherwise("0");
+  registry.add<Function>(
+      "function", "trouble", trouble,
+      [](const Parameters& p, const seam::Registry& /*registry*/) { return std::make_unique<Trouble>(p); });
+}
