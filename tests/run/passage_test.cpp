@@ -154,3 +154,39 @@ output: {{fields: false, probes: {{top: {{field: lower, at: [0.98, 0.5], quantit
   const auto time = column(series, "time"), top = column(series, "top.y");
   for (std::size_t k = 0; k < time.size(); ++k) CHECK(top[k] < 0.05 - 4 * time[k] + 0.09);
 }
+
+TEST_CASE("in space a block is not pushed through another one by a long step", "[study]") {
+  const Folder folder;
+  const auto done = seam("run " + folder.file("scene.yaml", R"yaml(
+title: A block above another one
+dimension: 3
+plugins: [solid, nitsche_fsci]
+meshes:
+  lower: {grid: {from: [0, 0, 0], to: [1, 1, 0.5], cells: [5, 5, 3]}}
+  upper: {grid: {from: [0.23, 0.27, 0.53], to: [0.73, 0.77, 0.93], cells: [2, 2, 2]}}
+fields:
+  lower:
+    type: solid
+    mesh: lower
+    material: {type: neo_hookean, young: 1000, poisson: 0.3}
+    boundary: [{on: z_min, displacement: [0, 0, 0]}]
+  upper:
+    type: solid
+    mesh: upper
+    material: {type: neo_hookean, young: 1000, poisson: 0.3}
+    boundary: [{on: z_max, displacement: [0, 0, "-t"]}]
+interfaces:
+  down: {type: contact, from: upper, to: lower}
+  up: {type: contact, from: lower, to: upper}
+coupling: [{type: contact, on: down}, {type: contact, on: up}]
+time: {static: true, end: 1, step: {initial: 1, minimum: 0.05}}
+output: {fields: false}
+)yaml") + " --quiet --no-picture --folder " + (folder.path / "out").string());
+  CAPTURE(done.output);
+  // At t = 1 the upper block's top lies below the lower block: there is no such state.
+  CHECK(done.code == 1);
+  const std::string series = folder.read("out/series.csv");
+  const auto gap = column(series, "down.gap");
+  CHECK(gap.size() > 1);
+  for (const double g : gap) CHECK(std::abs(g) < 0.17);  // half the diameter of its largest cell
+}

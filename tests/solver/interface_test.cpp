@@ -165,6 +165,27 @@ TEST_CASE("a kept preconditioner serves a matrix that was built anew with the sa
   const SolveReport report = solver.solve(a, {block}, b, y);
   CHECK_FALSE(report.new_factorisation);
   for (int r = 0; r < n; ++r) CHECK(y[r] == Approx(x[r] / 2).epsilon(1e-9));
+  // As after a step that failed.
+  solver.forget();
+  CHECK(solver.solve(a, {block}, b, y).new_factorisation);
+}
+
+TEST_CASE("factors that are kept are dropped when a step is rewound", "[ranks]") {
+  auto problem = two_bodies(CellType::quadrilateral, 1);
+  Parameters keep;
+  keep.set("keep", {20L, {}, {}, true});
+  MumpsSolver solver(keep);
+  problem->update_spaces(time_point(1, 0, 1));
+  problem->assembler().assemble(time_point(1, 0, 1), true);
+  const std::vector<double> b(problem->assembler().matrix().rows, 1.0);
+  std::vector<double> x;
+  const auto solve = [&] {
+    return solver.solve(problem->assembler().matrix(), problem->assembler().equation_blocks(), b, x);
+  };
+  CHECK(solve().new_factorisation);
+  CHECK_FALSE(solve().new_factorisation);
+  solver.forget();
+  CHECK(solve().new_factorisation);
 }
 
 TEST_CASE("faces without a partner are named") {

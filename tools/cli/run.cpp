@@ -35,6 +35,8 @@ void report_interruption(const SceneOutcome& outcome) {
 int run(const SceneRun& options, bool is_root) {
   const SceneOutcome outcome = run_scene(options);
   if (is_root) report(outcome);
+  if (is_root && outcome.lacks_picture)
+    fmt::print(stderr, "error: the picture that the scene asks for was not made: see above\n");
   if (is_root && outcome.interruption) report_interruption(outcome);
   return outcome.exit_code();
 }

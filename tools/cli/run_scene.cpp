@@ -35,11 +35,15 @@ std::filesystem::path results_folder(const SceneRun& run, const Scene& scene,
   return from_root(communicator, communicator.rank() == 0 ? default_folder(scene).string() : "");
 }
 
-/// The picture program stands beside this one.
-std::filesystem::path make_picture(const Scene& scene, ResultsFolder& results) {
+bool wants_picture(const Scene& scene) {
   const Parameters& output = scene.root.object("output");
-  if (!output.has("picture") || !output.boolean("fields")) return {};
-  const Parameters& p = output.object("picture");
+  return output.has("picture") && output.boolean("fields");
+}
+
+/// The picture program stands beside this one.
+/// @param deforms the field shown has a displacement
+std::filesystem::path make_picture(const Scene& scene, ResultsFolder& results, bool deforms) {
+  const Parameters& p = scene.root.object("output").object("picture");
   const std::filesystem::path& folder = results.path();
   results.remove("picture.png");
   results.claim("picture.png", ResultsFolder::at_the_end);
@@ -55,7 +59,8 @@ std::filesystem::path make_picture(const Scene& scene, ResultsFolder& results) {
                                 "--title",
                                 scene.root.text("title")};
   if (p.has("component")) call.insert(call.end(), {"--component", p.text("component")});
-  if (p.number("deformed") != 0)
+  // Not asked for, a field without a displacement is shown as it is.
+  if (p.number("deformed") != 0 && (deforms || p.given("deformed")))
     call.insert(call.end(), {"--deform", "displacement", "--scale", fmt::format("{}", p.number("deformed"))});
   return run_program(call) == 0 ? picture : std::filesystem::path();
 }
@@ -139,7 +144,7 @@ bool SceneOutcome::passed() const {
 }
 
 int SceneOutcome::exit_code() const {
-  if (!interruption) return passed() ? ok : failed;
+  if (!interruption) return passed() && !lacks_picture ? ok : failed;
   constexpr int by_signal = 128;
   return interruption->signal != 0 ? by_signal + interruption->signal : out_of_time;
 }
@@ -182,7 +187,13 @@ SceneOutcome run_scene(const SceneRun& run) {
   const nlohmann::json summary = write_summary(simulation, outcome.checks, folder, communicator);
   outcome.peak_memory = summary["peak_memory_bytes"];
   folder.finish(simulation.status());
-  if (communicator.rank() == 0 && run.pictures) outcome.picture = make_picture(scene, folder);
+  if (run.pictures && wants_picture(scene)) {
+    const auto& shown = simulation.problem().field(scene.root.object("output").object("picture").text("field"));
+    const bool deforms = std::ranges::any_of(shown.field->unknowns(),
+                                             [](const Unknown& u) { return u.name == "displacement"; });
+    if (communicator.rank() == 0) outcome.picture = make_picture(scene, folder, deforms);
+    outcome.lacks_picture = communicator.any(communicator.rank() == 0 && outcome.picture.empty());
+  }
   return outcome;
 }
 

@@ -3,22 +3,13 @@
 
 #include <exception>
 #include <string>
-#include <vector>
 
-#include "seam/base/diagnostics.hpp"
+#include "seam/base/all_or_none.hpp"
 
 namespace seam {
 namespace {
 
 enum Outcome : int { done, refused, failed };
-
-/// The text of the lowest rank that has one, on every rank.
-std::string first_text(const Communicator& communicator, const std::string& mine) {
-  std::vector<char> all(mine.begin(), mine.end());
-  if (!all.empty()) all.push_back('\0');
-  all = communicator.gather_all(all);
-  return all.empty() ? "" : all.data();
-}
 
 }  // namespace
 
@@ -46,7 +37,7 @@ void together(const Communicator& communicator, const std::function<void()>& wor
   }
   const int worst = communicator.max(outcome);
   if (worst == done) return;
-  message = first_text(communicator, outcome == worst ? message : "");
+  message = distinct_texts(communicator, outcome == worst ? message : "");
   if (worst == refused) throw StepRefused(message);
   if (thrown) std::rethrow_exception(thrown);
   throw Error(message);

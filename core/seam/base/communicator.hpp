@@ -3,8 +3,13 @@
 
 #include <mpi.h>
 
+#include <limits>
+#include <numeric>
 #include <span>
+#include <string>
 #include <vector>
+
+#include "seam/base/diagnostics.hpp"
 
 namespace seam {
 
@@ -40,7 +45,7 @@ class Communicator {
   template <class T>
   [[nodiscard]] std::vector<std::vector<T>> exchange(const std::vector<std::vector<T>>& out) const {
     std::vector<int> out_count(size_), in_count(size_);
-    for (int r = 0; r < size_; ++r) out_count[r] = static_cast<int>(out[r].size() * sizeof(T));
+    for (int r = 0; r < size_; ++r) out_count[r] = bytes_of(out[r]);
     MPI_Alltoall(out_count.data(), 1, MPI_INT, in_count.data(), 1, MPI_INT, handle_);
     std::vector<std::vector<T>> in(size_);
     std::vector<MPI_Request> requests;
@@ -59,8 +64,9 @@ class Communicator {
   template <class T>
   [[nodiscard]] std::vector<T> gather_all(const std::vector<T>& mine) const {
     std::vector<int> count(size_), offset(size_);
-    const int bytes = static_cast<int>(mine.size() * sizeof(T));
+    const int bytes = bytes_of(mine);
     MPI_Allgather(&bytes, 1, MPI_INT, count.data(), 1, MPI_INT, handle_);
+    check_bytes(std::accumulate(count.begin(), count.end(), 0LL));
     for (int r = 1; r < size_; ++r) offset[r] = offset[r - 1] + count[r - 1];
     std::vector<T> all((offset[size_ - 1] + count[size_ - 1]) / sizeof(T));
     MPI_Allgatherv(mine.data(), bytes, MPI_BYTE, all.data(), count.data(), offset.data(), MPI_BYTE, handle_);
@@ -68,6 +74,17 @@ class Communicator {
   }
 
  private:
+  /// MPI counts with int.
+  static void check_bytes(long long bytes) {
+    if (bytes > std::numeric_limits<int>::max())
+      throw Error("a message of " + std::to_string(bytes) +
+                  " bytes is beyond the 2 GiB that MPI sends at once: take more ranks, or a smaller mesh");
+  }
+  template <class T>
+  [[nodiscard]] static int bytes_of(const std::vector<T>& values) {
+    check_bytes(static_cast<long long>(values.size() * sizeof(T)));
+    return static_cast<int>(values.size() * sizeof(T));
+  }
   template <class T>
   [[nodiscard]] T reduce(T value, MPI_Datatype type, MPI_Op operation) const {
     T result{};
