@@ -9,6 +9,7 @@
 #include <map>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/cut/border.hpp"
 
 namespace seam::cutting {
 namespace {
@@ -101,13 +102,22 @@ int append_point(Facets& facets, const Vector& x) {
   return static_cast<int>(facets.position.size()) - 1;
 }
 
+void find_normals(Facets& facets, int first_facet) {
+  for (auto f = facets.list.begin() + first_facet; f != facets.list.end(); ++f)
+    f->normal = normal_into_body(facets.dimension, facets.position[f->vertex[0]],
+                                 facets.position[f->vertex[1]], facets.position[f->vertex[2]]);
+}
+
 void append_facet(Facets& facets, const std::array<int, 3>& v, int body, int facet, const Vector& normal) {
   facets.list.push_back({v, body, facet, normal});
 }
 
 /// Directions out of the surface at the vertices of its rim: away from the middles of the facets there,
-/// weighted with their areas, as narrow ones have no direction but rounding.
-std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::vector<Rim>& rims) {
+/// weighted with their areas, as narrow ones have no direction but rounding. Out of the mesh where the rim
+/// lies in its border.
+/// @param outward as Border::lay_flush returns it
+std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::vector<Rim>& rims,
+                                              const std::vector<Vector>& outward) {
   std::map<LatticePoint, Vector> out;
   for (const Rim& rim : rims)
     for (const int v : rim.vertex) out[facets.point[v]] = {};
@@ -132,11 +142,14 @@ std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::v
       const Vector& own = known.at(facets.point[rim.vertex[k]]);
       if (dot(own, own) < 1e-20 * largest) out[facets.point[rim.vertex[k]]] = other;
     }
+  for (const Rim& rim : rims)
+    for (const int v : rim.vertex)
+      if (!outward.empty() && outward[v] != Vector{}) out[facets.point[v]] = outward[v];
   return out;
 }
 
 /// Sews a narrow strip to the rim.
-void prolong(Facets& facets, const std::vector<Rim>& rims) {
+void prolong(Facets& facets, const std::vector<Rim>& rims, const std::vector<Vector>& outward) {
   constexpr double share = 1e-6;  // of a facet: beyond all rounding, too little to reach into the mesh again
   double longest = 0;
   for (const Rim& rim : rims) {
@@ -145,7 +158,7 @@ void prolong(Facets& facets, const std::vector<Rim>& rims) {
     longest = std::max(longest, std::sqrt(dot(edge, edge)));
   }
   std::map<LatticePoint, int> prolonged;
-  for (const auto& [point, out] : directions_out(facets, rims)) {
+  for (const auto& [point, out] : directions_out(facets, rims, outward)) {
     const double length = std::sqrt(dot(out, out));
     const Vector shift = length > 0 ? share * longest / length * out : Vector{};
     prolonged[point] = append_point(facets, facets.lattice.position(point) + shift);
@@ -176,17 +189,18 @@ double enclosed(const Facets& facets, int first_facet) {
   return sum;
 }
 
-void append_body(Facets& facets, const Surface& surface, int body) {
+void append_body(Facets& facets, const Border& border, const Surface& surface, int body) {
   const int dim = facets.dimension, first_point = static_cast<int>(facets.point.size());
   const int first_facet = static_cast<int>(facets.list.size());
   for (int v = 0; v < surface.point_count(); ++v) append_point(facets, position_of(surface, v));
   for (int f = 0; f < surface.facet_count(); ++f) {
     std::array<int, 3> v{};
     for (int k = 0; k < 3; ++k) v[k] = first_point + surface.facets[f * dim + std::min(k, dim - 1)];
-    const Vector normal =
-        normal_into_body(dim, facets.position[v[0]], facets.position[v[1]], facets.position[v[2]]);
-    append_facet(facets, v, body, f, normal);
+    append_facet(facets, v, body, f, {});
   }
+  find_normals(facets, first_facet);
+  const std::vector<Vector> outward = border.lay_flush(facets, first_facet);
+  if (!outward.empty()) find_normals(facets, first_facet);
   const std::vector<Rim> rims = RimFinder(facets, first_facet).rims();
   if (surface.closed && !rims.empty()) {
     const Rim& rim = rims.front();
@@ -197,7 +211,7 @@ void append_body(Facets& facets, const Surface& surface, int body) {
   }
   facets.far.push_back(surface.closed && enclosed(facets, first_facet) < 0 ? 1 : 0);
   facets.closed.push_back(surface.closed);
-  if (!rims.empty()) prolong(facets, rims);
+  if (!rims.empty()) prolong(facets, rims, outward);
   // Facets without extent meet nothing. Only their edges counted, where neighbours meet at a vertex between.
   const auto is_degenerate = [&](const Facet& f) {
     const LatticePoint &p = facets.point[f.vertex[0]], &q = facets.point[f.vertex[1]];
@@ -209,7 +223,7 @@ void append_body(Facets& facets, const Surface& surface, int body) {
 
 }  // namespace
 
-Facets collect_facets(const Outline& outline, std::span<const Surface> bodies) {
+Facets collect_facets(const Outline& outline, const Border& border, std::span<const Surface> bodies) {
   Facets facets;
   facets.dimension = outline.dimension;
   Vector low = outline.low, high = outline.high;
@@ -224,7 +238,7 @@ Facets collect_facets(const Outline& outline, std::span<const Surface> bodies) {
     }
   }
   facets.lattice = Lattice(low, high);
-  for (std::size_t b = 0; b < bodies.size(); ++b) append_body(facets, bodies[b], static_cast<int>(b));
+  for (std::size_t b = 0; b < bodies.size(); ++b) append_body(facets, border, bodies[b], static_cast<int>(b));
   return facets;
 }
 

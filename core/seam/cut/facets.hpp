@@ -31,10 +31,13 @@ struct Facets {
   bool all_covered = false;  ///< without any facet: whether a body is everywhere, or nowhere
 };
 
-/// Checks the surfaces and puts them on a lattice that covers them and the mesh. The rim of an open surface
-/// is prolonged a little, so that it also ends outside of the mesh when it was meant to end on its boundary.
+class Border;
+
+/// Checks the surfaces, puts them on a lattice that covers them and the mesh, and lays what is flush with the
+/// mesh's border onto it. The rim of an open surface is prolonged a little, so that it also ends outside of
+/// the mesh when it was meant to end on its boundary.
 /// @throws Error as CutMesh::cut does
-Facets collect_facets(const Outline& outline, std::span<const Surface> bodies);
+Facets collect_facets(const Outline& outline, const Border& border, std::span<const Surface> bodies);
 
 /// +1 when a step from mesh vertex a to b passes the facet from front to back, that is into the body, -1 the
 /// other way, 0 when it misses.

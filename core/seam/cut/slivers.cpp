@@ -166,34 +166,6 @@ void measure(const Outline& outline, CutCell& cell) {
   for (const Piece& p : cell.pieces) cell.interface_area += length(vector_area(dim, cell, p));
 }
 
-void close_seams(const Outline& outline, CutCell& cell) {
-  const int dim = outline.dimension;
-  constexpr double rounding = 1e-9;  // of the cell's size, and of a cosine
-  const double reach = rounding * std::pow(outline.volume(cell.cell), 1.0 / dim);
-  for (int s = outline.first_side[cell.cell]; s < outline.first_side[cell.cell + 1]; ++s) {
-    const Side& side = outline.sides[s];
-    if (outline.neighbour[cell.cell][side.face] >= 0) continue;
-    const Vector normal = side_normal(outline, side), origin = outline.position[side.vertex[0]];
-    const auto lies_in_side = [&](const Piece& piece) {
-      if (dot(piece.normal, normal) > rounding - 1) return false;
-      const Vector* x = &cell.points[piece.first];
-      return std::all_of(x, x + piece.count,
-                         [&](const Vector& point) { return std::abs(dot(point - origin, normal)) < reach; });
-    };
-    for (const Piece& piece : cell.pieces) {
-      if (!lies_in_side(piece)) continue;
-      const Vector* x = &cell.points[piece.first];
-      for (int k = 1; k + (dim == 3 ? 1 : 0) < piece.count; ++k) {
-        WetPart less{side.face, normal, {x[0], x[k], x[dim == 3 ? k + 1 : k]}, -1.0, 0.0};
-        less.area = -dot(vector_area(dim, less.corner[0], less.corner[1], less.corner[2]), normal);
-        cell.wet.push_back(less);
-        cell.united = false;
-      }
-    }
-    std::erase_if(cell.pieces, lies_in_side);
-  }
-}
-
 void settle_slivers(const Outline& outline, std::vector<CutCell>& cells, std::vector<CellState>& state) {
   Settlement(outline, cells, state).settle();
 }
