@@ -79,6 +79,16 @@ bool are_apart(const Facets& facets) {
   return true;
 }
 
+/// From now on pieces are those of the surfaces that were given, not of the solids that these make up.
+void name_surfaces(const Facets& facets, std::vector<CutCell>& cells) {
+  for (CutCell& c : cells)
+    for (Piece& p : c.pieces) {
+      const auto& [body, facet] = facets.origin[p.body][p.facet];
+      p.body = body;
+      p.facet = facet;
+    }
+}
+
 }  // namespace
 
 CutMesh::CutMesh(const Mesh& mesh)
@@ -116,6 +126,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
     measure(g.outline, c);
   }
   settle_slivers(g.outline, g.cells, state_);
+  name_surfaces(g.facets, g.cells);
   g.coverage = coverage.count();
   adopt_ghost_states();
   number_cut_cells();

@@ -204,10 +204,11 @@ void append_body(Facets& facets, const Border& border, const Surface& surface, i
   const std::vector<Rim> rims = RimFinder(facets, first_facet).rims();
   if (surface.closed && !rims.empty()) {
     const Rim& rim = rims.front();
+    const auto& [given, facet] = facets.origin[body][facets.list[rim.facet].facet];
     throw Error(fmt::format(
         "body {}: its surface is not closed at facet {}, near ({}); close it, or declare it open if its rim "
         "lies outside the mesh",
-        body, facets.list[rim.facet].facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
+        given, facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
   }
   facets.far.push_back(surface.closed && enclosed(facets, first_facet) < 0 ? 1 : 0);
   facets.closed.push_back(surface.closed);
@@ -238,7 +239,10 @@ Facets collect_facets(const Outline& outline, const Border& border, std::span<co
     }
   }
   facets.lattice = Lattice(low, high);
-  for (std::size_t b = 0; b < bodies.size(); ++b) append_body(facets, border, bodies[b], static_cast<int>(b));
+  Solids solids = join(bodies, facets.lattice);
+  facets.origin = std::move(solids.origin);
+  for (std::size_t b = 0; b < solids.surfaces.size(); ++b)
+    append_body(facets, border, solids.surfaces[b], static_cast<int>(b));
   return facets;
 }
 
