@@ -24,45 +24,26 @@ plugins: [cutfem_fluid, solid, nitsche_fsci]
 meshes:
   box: {{grid: {{from: [0, 0], to: [1, 1], cells: [8, 8]}}}}
   disc:
-    grid: {{from: [-1, -1], to: [1, 1], cells: [4, 4], map: ["0.5 + 0.2*x*sqrt(1 - y^2/2)", "0.5 + 0.2*y*sqrt(1 - x^2/2)"]
-}
-}
-fields : water : type : cutfem_fluid mesh : box density : 1 viscosity : 0.05 fix_pressure : never boundary
-    : -{
-  {
-  on:
-    [ x_min, x_max, y_min, y_max ], velocity : [ 0, 0 ]
-  }
-}
-disc : type : solid mesh : disc material : {
-  {
-  type:
-    neo_hookean, young : 100, poisson : 0.3
-  }
-}
-density : 1 body_force : [ 1, -2 ] interfaces : {}
-coupling : {}
-time : {
-  {
-  theta:
-    1, end : 0.03, step : {
-      {
-      initial:
-        0.01
-      }
-    }
-  }
-}
-solver : {
-  {
-  newton : {
-    {
-    tolerance:
-      1e-11, increment_tolerance : 1e-9
-    }
-  }
-  }
-}
+    grid: {{from: [-1, -1], to: [1, 1], cells: [4, 4], map: ["0.5 + 0.2*x*sqrt(1 - y^2/2)", "0.5 + 0.2*y*sqrt(1 - x^2/2)"]}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 0.05
+    fix_pressure: never
+    boundary:
+      - {{on: [x_min, x_max, y_min, y_max], velocity: [0, 0]}}
+  disc:
+    type: solid
+    mesh: disc
+    material: {{type: neo_hookean, young: 100, poisson: 0.3}}
+    density: 1
+    body_force: [1, -2]
+interfaces:
+{}coupling:
+{}time: {{theta: 1, end: 0.03, step: {{initial: 0.01}}}}
+solver: {{newton: {{tolerance: 1e-11, increment_tolerance: 1e-9}}}}
 output:
   fields: false
   probes:
