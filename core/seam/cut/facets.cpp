@@ -177,16 +177,24 @@ void prolong(Facets& facets, const std::vector<Rim>& rims, const std::vector<Vec
   }
 }
 
-double enclosed(const Facets& facets, int first_facet) {
+/// Whether a closed surface is turned inside out, beyond what rounding can do to one that encloses next to
+/// nothing.
+bool is_inside_out(const Facets& facets, int first_facet) {
   const Vector origin = facets.position[facets.list[first_facet].vertex[0]];
-  double sum = 0;
+  double sum = 0, size = 0;
   for (int f = first_facet; f < static_cast<int>(facets.list.size()); ++f) {
     const auto& v = facets.list[f].vertex;
     const Vector a = facets.position[v[0]] - origin, b = facets.position[v[1]] - origin;
-    sum +=
-        facets.dimension == 2 ? a[0] * b[1] - a[1] * b[0] : dot(cross(a, b), facets.position[v[2]] - origin);
+    if (facets.dimension == 2) {
+      sum += (a[0] * b[1] - a[1] * b[0]) / 2;
+      size += std::sqrt(dot(b - a, b - a));
+    } else {
+      const Vector c = facets.position[v[2]] - origin, area = cross(b - a, c - a);
+      sum += dot(cross(a, b), c) / 6;
+      size += std::sqrt(dot(area, area)) / 2;
+    }
   }
-  return sum;
+  return sum < -2 * facets.lattice.spacing() * size;
 }
 
 void append_body(Facets& facets, const Border& border, const Surface& surface, int body) {
@@ -210,7 +218,7 @@ void append_body(Facets& facets, const Border& border, const Surface& surface, i
         "lies outside the mesh",
         given, facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
   }
-  facets.far.push_back(surface.closed && enclosed(facets, first_facet) < 0 ? 1 : 0);
+  facets.far.push_back(surface.closed && is_inside_out(facets, first_facet) ? 1 : 0);
   facets.closed.push_back(surface.closed);
   if (!rims.empty()) prolong(facets, rims, outward);
   // Facets without extent meet nothing. Only their edges counted, where neighbours meet at a vertex between.
