@@ -295,38 +295,53 @@ const Facet* closest_facet(const Facets& facets, int body, const Vector& positio
   return closest;
 }
 
-/// Sum of the crossings on the way, all facets but one.
-int crossings(const Facets& facets, int body, const Facet* except, const LatticePoint& from,
-              const LatticePoint& to) {
+/// Sum of the crossings on the way.
+int crossings(const Facets& facets, int body, const LatticePoint& from, const LatticePoint& to) {
   int sum = 0;
   for (const Facet& f : facets.list)
-    if (counts(f, body) && &f != except) sum += crossing(facets, f, from, to);
+    if (counts(f, body)) sum += crossing(facets, f, from, to);
   return sum;
 }
 
-/// From the side on which the vertex lies of a facet that is not far, and the facets before that one.
+/// A point of the lattice on a facet, or next to it.
+LatticePoint middle_of(const Facets& facets, const Facet& f) {
+  const LatticePoint &p = facets.point[f.vertex[0]], &q = facets.point[f.vertex[1]];
+  const LatticePoint& r = facets.point[f.vertex[2]];
+  LatticePoint middle;
+  for (int i = 0; i < 3; ++i)
+    middle.x[i] = facets.dimension == 2 ? (p.x[i] + q.x[i]) / 2 : (p.x[i] + q.x[i] + r.x[i]) / 3;
+  return middle;
+}
+
+LatticePoint far_from(LatticePoint point) {
+  point.x[0] = std::int64_t{1} << 51;
+  return point;
+}
+
+/// From the side of a facet that is not far, and the facets on the way to it.
 int winding_from_facet(const Facets& facets, int body, const LatticePoint& vertex) {
   const Facet* facet = closest_facet(facets, body, facets.lattice.position(vertex));
   if (facet == nullptr) return 0;
   const LatticePoint &p = facets.point[facet->vertex[0]], &q = facets.point[facet->vertex[1]];
-  const bool behind = facets.dimension == 2 ? side_of_facet(p, q, vertex) > 0
-                                            : side_of_facet(p, q, facets.point[facet->vertex[2]], vertex) < 0;
-  const LatticePoint end = facets.lattice.round(centre_of(facets, *facet));
-  return (behind ? 1 : 0) - crossings(facets, body, facet, vertex, end);
+  const LatticePoint end = middle_of(facets, *facet);
+  const bool behind = facets.dimension == 2 ? side_of_facet(p, q, end) > 0
+                                            : side_of_facet(p, q, facets.point[facet->vertex[2]], end) < 0;
+  return (behind ? 1 : 0) - crossings(facets, body, vertex, end);
 }
 
 }  // namespace
 
 int winding(const Facets& facets, int body, const LatticePoint& vertex) {
   if (!facets.closed[body]) return winding_from_facet(facets, body, vertex);
-  LatticePoint far_away = vertex;
-  far_away.x[0] = std::int64_t{1} << 51;
-  return facets.far[body] - crossings(facets, body, nullptr, vertex, far_away);
+  return facets.far[body] - crossings(facets, body, vertex, far_from(vertex));
 }
 
 int coverage_at(const Facets& facets, const LatticePoint& vertex) {
   if (facets.list.empty()) return facets.all_covered ? 1 : 0;
-  return winding_from_facet(facets, all_bodies, vertex);
+  const bool all_closed = std::find(facets.closed.begin(), facets.closed.end(), false) == facets.closed.end();
+  if (!all_closed) return winding_from_facet(facets, all_bodies, vertex);
+  const bool covers_far = std::any_of(facets.far.begin(), facets.far.end(), [](int w) { return w > 0; });
+  return (covers_far ? 1 : 0) - crossings(facets, all_bodies, vertex, far_from(vertex));
 }
 
 }  // namespace seam::cutting
