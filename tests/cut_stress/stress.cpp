@@ -420,7 +420,7 @@ class Stress {
       size += dim_ == 2 ? std::hypot(static_cast<double>(b[0] - a[0]), static_cast<double>(b[1] - a[1]))
                         : std::sqrt(static_cast<double>(clipping::height(n, {0, 0, 0}, n)));
     }
-    return sum > 1e-13 * size;
+    return sum > 4e-14 * size;
   }
 
   void check_complement() {

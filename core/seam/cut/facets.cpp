@@ -206,6 +206,8 @@ void append_body(Facets& facets, const Border& border, const Surface& surface, i
     for (int k = 0; k < 3; ++k) v[k] = first_point + surface.facets[f * dim + std::min(k, dim - 1)];
     append_facet(facets, v, body, f, {});
   }
+  // Before a slit is laid onto the border, which leaves nothing of it.
+  const bool inside_out = surface.closed && is_inside_out(facets, first_facet);
   find_normals(facets, first_facet);
   const std::vector<Vector> outward = border.lay_flush(facets, first_facet);
   if (!outward.empty()) find_normals(facets, first_facet);
@@ -218,7 +220,7 @@ void append_body(Facets& facets, const Border& border, const Surface& surface, i
         "lies outside the mesh",
         given, facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
   }
-  facets.far.push_back(surface.closed && is_inside_out(facets, first_facet) ? 1 : 0);
+  facets.far.push_back(inside_out ? 1 : 0);
   facets.closed.push_back(surface.closed);
   if (!rims.empty()) prolong(facets, rims, outward);
   // Facets without extent meet nothing. Only their edges counted, where neighbours meet at a vertex between.

@@ -40,33 +40,34 @@ void hand_over(int dimension, const CutCell& sliver, int face, const Vector& out
   Vector anchor{};
   for (const WetPart& w : sliver.wet)
     if (w.face == face) anchor = w.corner[0];
+  std::vector<std::pair<Piece, double>> laid;  // and their shares
   double sum = 0;
-  std::vector<double> share;
   for (const Piece& p : sliver.pieces) {
     const Vector a = vector_area(dimension, sliver, p);
     // Pieces at right angles to the face have no share but rounding.
     const double opposite = dot(a, normal);
-    sum += share.emplace_back(opposite > 1e-12 * length(a) ? opposite : 0.0);
-  }
-  double laid = 0;
-  for (std::size_t k = 0; k < share.size(); ++k) {
-    Piece piece = sliver.pieces[k];
+    if (opposite <= 1e-12 * length(a)) continue;
+    Piece piece = p;
     piece.handed_over = true;
     piece.normal = normal;
     piece.scale = 1;
-    const int first = piece.first;
     piece.first = static_cast<int>(receiver.points.size());
     for (int i = 0; i < piece.count; ++i) {
-      const Vector& x = sliver.points[first + i];
+      const Vector& x = sliver.points[p.first + i];
       receiver.points.push_back(x - dot(x - anchor, normal) * normal);
     }
-    const double own = length(vector_area(dimension, receiver, piece));
-    if (share[k] == 0 || own == 0) continue;
-    piece.scale = area * share[k] / sum / own;
-    laid += area * share[k] / sum;
+    // As the rule on it measures it, so that rounding of its direction opens nothing.
+    const double own = dot(vector_area(dimension, receiver, piece), normal);
+    if (own <= 0) continue;
+    piece.scale = area / own;
+    laid.emplace_back(piece, opposite);
+    sum += opposite;
+  }
+  for (auto& [piece, opposite] : laid) {
+    piece.scale *= opposite / sum;
     receiver.pieces.push_back(piece);
   }
-  if (laid == 0 && !sliver.pieces.empty()) lay_face(dimension, sliver, face, outward, receiver);
+  if (laid.empty() && !sliver.pieces.empty()) lay_face(dimension, sliver, face, outward, receiver);
 }
 
 class Settlement {
