@@ -82,6 +82,7 @@ class RimFinder {
  private:
   void add(Rim rim) {
     LatticePoint a = facets_.point[rim.vertex[0]], b = facets_.point[rim.vertex[1]];
+    if (facets_.dimension == 3 && a == b) return;  // no edge any more
     int sign = rim.sign;
     if (b < a) {
       std::swap(a, b);

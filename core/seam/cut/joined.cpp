@@ -30,7 +30,8 @@ void note_rims(const Surface& surface, int number, const Lattice& lattice, std::
       note(rims, number, p[0], p[0], -1);
       note(rims, number, p[1], p[1], 1);
     } else {
-      for (int k = 0; k < 3; ++k) note(rims, number, p[k], p[(k + 1) % 3], 1);
+      for (int k = 0; k < 3; ++k)
+        if (p[k] != p[(k + 1) % 3]) note(rims, number, p[k], p[(k + 1) % 3], 1);
     }
   }
 }
