@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several bodies in the plane, and surfaces that are not closed.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -130,6 +131,57 @@ TEST_CASE("Both walls of a channel in one open surface, and a body touching a wa
   check_closure(cut);
   CHECK(total_fluid(cut) == Approx(.7 - .06).epsilon(1e-12));
   CHECK(total_interface(cut) == Approx(1 + 1 - .2 + .8).epsilon(1e-12));
+}
+
+TEST_CASE("The surface of one body in several parts is one surface", "[cut][bodies]") {
+  const auto part = [](const Surface& whole, const std::vector<int>& facets) {
+    Surface s = whole;
+    s.closed = false;
+    s.facets.clear();
+    for (const int f : facets)
+      s.facets.insert(s.facets.end(), &whole.facets[f * whole.dimension],
+                      &whole.facets[f * whole.dimension] + whole.dimension);
+    return s;
+  };
+  for (const CellType type : {CellType::quadrilateral, CellType::triangle, CellType::hexahedron}) {
+    const bool plane = type != CellType::hexahedron;
+    const Mesh mesh = grid(type, {5, 5, plane ? 0 : 5}, unmoved());
+    CutMesh whole(mesh), parts(mesh);
+    const Surface body = plane ? rectangle(.13, .22, .71, .64) : box({.13, .22, .31}, {.71, .64, .83});
+    // Opposite sides in one of the parts; a body of its own between them in the order.
+    std::vector<int> first, second;
+    for (int f = 0; f < body.facet_count(); ++f) ((plane ? f : f / 4) % 2 == 0 ? first : second).push_back(f);
+    const Surface other = plane ? rectangle(.8, .1, .9, .9) : box({.8, .1, .1}, {.9, .9, .9});
+    whole.cut(std::vector{body, other});
+    parts.cut(std::vector{part(body, first), other, part(body, second)});
+    check_closure(parts);
+    REQUIRE(parts.cut_cells() == whole.cut_cells());
+    CHECK(total_fluid(parts) == Approx(total_fluid(whole)).epsilon(1e-14));
+    CHECK(total_interface(parts) == Approx(total_interface(whole)).epsilon(1e-14));
+    // Points know of which part they are.
+    InterfaceRule rule;
+    std::vector<double> area(3, 0.0), known(3, 0.0);
+    for (const int c : parts.cut_cells()) {
+      parts.interface_rule(c, 1, rule);
+      for (int q = 0; q < rule.count(); ++q) area[rule.body[q]] += rule.weight[q];
+      whole.interface_rule(c, 1, rule);
+      for (int q = 0; q < rule.count(); ++q) {
+        const bool is_first = std::find(first.begin(), first.end(), rule.facet[q]) != first.end();
+        known[rule.body[q] == 1 ? 1 : is_first ? 0 : 2] += rule.weight[q];
+      }
+    }
+    for (int b = 0; b < 3; ++b) CHECK(area[b] == Approx(known[b]).epsilon(1e-13));
+  }
+}
+
+TEST_CASE("One part of a body's surface alone is refused beside another body", "[cut][bodies]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {4, 4, 0}, unmoved());
+  CutMesh cut(mesh);
+  Surface part = rectangle(.2, .2, .5, .5);
+  part.facets.resize(4);
+  part.closed = false;
+  CHECK_THROWS_WITH(cut.cut(std::vector{rectangle(.6, .6, .8, .8), part}),
+                    Catch::Contains("not closed inside of it"));
 }
 
 TEST_CASE("Broken surfaces are refused with a reason", "[cut][bodies]") {

@@ -30,6 +30,14 @@ seam::Surface sphere(Point centre, double radius, int refinements);
 seam::Surface moved(seam::Surface surface, const Placement& placement);
 seam::Surface reversed(seam::Surface surface);
 
+/// Whether a cell's edges are straight and its faces plane, so that each has one normal.
+bool has_flat_sides(const seam::Mesh& mesh, int cell);
+/// The vector area of a cut cell's interface and wet faces, m^(d-1): zero for a cell with flat sides.
+Point closure(const seam::CutMesh& cut, int cell);
+/// The flux of the distance from the cell's middle through its interface and wet faces, m^d: by the
+/// divergence theorem its wet volume times the dimension, for a cell with flat sides.
+double flux_of_position(const seam::CutMesh& cut, int cell);
+
 /// Properties of a cut that hold whatever the input is. Fails (REQUIRE) when one does not.
 /// @return number of cut cells
 int check_closure(const seam::CutMesh& cut);

@@ -308,3 +308,140 @@ TEST_CASE("fluid that a moving body closes off keeps its state") {
   INFO(result.output);
   CHECK(result.code == 0);
 }
+
+namespace {
+
+/// Chambers at rest around the middle of the unit square, parted by boxes 0.02 thick that are turned about
+/// it.
+std::string chambers(const std::vector<double>& turns) {
+  std::string interfaces, couplings;
+  for (std::size_t k = 0; k < turns.size(); ++k) {
+    interfaces += fmt::format(
+        "  plate{}: {{type: cut, field: water, body: {{type: box, from: [-1.5, 0.49], to: [2.5, 0.51]}}, "
+        "motion: {{rotation: {}, about: [0.5, 0.5]}}}}\n",
+        k, turns[k]);
+    couplings += fmt::format("  - {{type: fluid_wall, on: plate{}, velocity: [0, 0]}}\n", k);
+  }
+  return fmt::format(R"(
+title: Chambers at rest, parted by thin plates
+dimension: 2
+plugins: [cutfem_fluid]
+meshes:
+  tank:
+    grid: {{from: [0, 0], to: [1, 1], cells: [10, 10]}}
+    boundaries:
+      left_low: {{where: "x < 1e-9 && y < 0.5"}}
+      left_high: {{where: "x < 1e-9 && y > 0.5"}}
+      right_low: {{where: "x > 1 - 1e-9 && y < 0.5"}}
+      right_high: {{where: "x > 1 - 1e-9 && y > 0.5"}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: tank
+    parts: separate
+    density: 1
+    viscosity: 1
+    convection: false
+    boundary:
+      - {{on: [y_min, y_max], velocity: [0, 0]}}
+      - {{on: left_low, traction: [1, 0]}}
+      - {{on: left_high, traction: [2, 0]}}
+      - {{on: right_low, traction: [-3, 0]}}
+      - {{on: right_high, traction: [-4, 0]}}
+interfaces:
+{}coupling:
+{}output:
+  fields: false
+  probes:
+    left_low: {{field: water, at: [0.25, 0.25], quantity: pressure}}
+    left_high: {{field: water, at: [0.25, 0.75], quantity: pressure}}
+    right_low: {{field: water, at: [0.75, 0.25], quantity: pressure}}
+    right_high: {{field: water, at: [0.75, 0.75], quantity: pressure}}
+)",
+                     interfaces, couplings);
+}
+
+/// A plate and a disc that overlap in a channel; `side` is -1 for the mirror image.
+std::string plate_and_disc(int side) {
+  std::string corners;
+  std::vector<std::array<double, 2>> places{{0.71, -0.1}, {0.73, -0.1}, {0.83, 0.62}, {0.81, 0.62}};
+  if (side < 0) std::reverse(places.begin(), places.end());
+  for (const auto& [x, y] : places) corners += fmt::format("{{at: [{}, {}]}}, ", side * x, y);
+  return fmt::format(R"(
+title: A thin plate and a disc that overlap
+dimension: 2
+plugins: [cutfem_fluid]
+meshes:
+  channel: {{grid: {{from: [{}, 0], to: [{}, 1], cells: [20, 10]}}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: channel
+    parts: separate
+    density: 1
+    viscosity: 0.05
+    convection: false
+    boundary:
+      - {{on: {}, velocity: ["{}*y*(1-y)*4", 0]}}
+      - {{on: [y_min, y_max], velocity: [0, 0]}}
+interfaces:
+  plate: {{type: cut, field: water, body: {{type: outline, corners: [{}]}}, motion: {{rotation: {}, about: [{}, 0]}}}}
+  disc: {{type: cut, field: water, body: {{type: circle, centre: [{}, 0.62], radius: 0.11}}}}
+coupling:
+  - {{type: fluid_wall, on: plate, velocity: [0, 0]}}
+  - {{type: fluid_wall, on: disc, velocity: [0, 0]}}
+{}
+output:
+  fields: false
+  probes:
+    f: {{interface: plate, quantity: force}}
+)",
+                     side > 0 ? 0 : -2, side > 0 ? 2 : 0, side > 0 ? "x_min" : "x_max", side, corners,
+                     side * 0.03, side * 0.72, side * 0.8, exact_solver);
+}
+
+}  // namespace
+
+TEST_CASE("four chambers that meet in a node inside a body have a pressure each") {
+  const double quarter = std::acos(0.0);
+  const Folder folder;
+  const Result run = seam("run " + folder.file("scene.yaml", chambers({0, quarter})) +
+                          " --quiet --no-picture --folder " + (folder.path / "results").string());
+  INFO(run.output);
+  REQUIRE(run.code == 0);
+  CHECK_THAT(run.output, !Catch::Contains("share unknowns"));
+  const std::string series = folder.read("results/series.csv");
+  CHECK(column(series, "left_low").back() == Approx(1).epsilon(1e-9));
+  CHECK(column(series, "left_high").back() == Approx(2).epsilon(1e-9));
+  CHECK(column(series, "right_low").back() == Approx(3).epsilon(1e-9));
+  CHECK(column(series, "right_high").back() == Approx(4).epsilon(1e-9));
+}
+
+TEST_CASE("more chambers around a node than it has sets of unknowns are reported once") {
+  const double sixth = 2 * std::acos(0.0) / 3;
+  const Folder folder;
+  const Result run = seam("run " + folder.file("scene.yaml", chambers({0.2, 0.2 + sixth, 0.2 + 2 * sixth})) +
+                          " --quiet --no-picture --folder " + (folder.path / "results").string());
+  INFO(run.output);
+  const std::string said = "bodies part it into more than 4 parts around one node, first near (0.";
+  const auto first = run.output.find(said);
+  REQUIRE(first != std::string::npos);
+  CHECK(run.output.find(said, first + 1) == std::string::npos);
+}
+
+TEST_CASE("a plate and a disc that overlap are pushed as their mirror images are") {
+  const auto force = [](int side) {
+    const Folder folder;
+    const Result run = seam("run " + folder.file("scene.yaml", plate_and_disc(side)) +
+                            " --quiet --no-picture --folder " + (folder.path / "results").string());
+    INFO(run.output);
+    REQUIRE(run.code == 0);
+    const std::string series = folder.read("results/series.csv");
+    return std::pair(column(series, "f.x").back(), column(series, "f.y").back());
+  };
+  const auto [x, y] = force(1);
+  const auto [mirrored_x, mirrored_y] = force(-1);
+  CHECK(x > 1);
+  CHECK(mirrored_x == Approx(-x).epsilon(1e-10));
+  CHECK(mirrored_y == Approx(y).epsilon(1e-10));
+}

@@ -46,6 +46,14 @@ CellSearch::CellSearch(const Outline& outline, int cells) : tree_(std::make_uniq
   tree_->index = decltype(tree_->index)(entries.begin(), entries.end());
 }
 
+CellSearch::CellSearch(const std::vector<std::pair<Vector, Vector>>& boxes)
+    : tree_(std::make_unique<Tree>()) {
+  std::vector<Entry> entries;
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    entries.emplace_back(box(boxes[k].first, boxes[k].second), static_cast<int>(k));
+  tree_->index = decltype(tree_->index)(entries.begin(), entries.end());
+}
+
 CellSearch::~CellSearch() = default;
 
 void CellSearch::find(const Vector& low, const Vector& high, std::vector<int>& cells) const {

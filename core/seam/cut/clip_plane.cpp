@@ -20,7 +20,21 @@ double area(const Vector& a, const Vector& b, const Vector& c, int sign) {
   return std::max(0.0, sign * value);
 }
 
-double ratio(double a, double b) { return a + b > 0 ? a / (a + b) : 0.5; }
+/// a / (a + b); where rounding leaves nothing of both, that of the same sizes on the lattice.
+template <class OnLattice>
+double ratio(double a, double b, const OnLattice& on_lattice) {
+  if (a + b > 0) return a / (a + b);
+  const auto [c, d] = on_lattice();
+  return c + d > 0 ? c / (c + d) : 0.5;
+}
+
+/// Of the way from a to b, of the point next to x.
+double share(const Vector& a, const Vector& b, const Vector& x) {
+  const double square = dot(b - a, b - a);
+  return square > 0 ? dot(x - a, b - a) / square : 0.5;
+}
+
+double between(double x, double a, double b) { return std::clamp(x, std::min(a, b), std::max(a, b)); }
 
 /// Whether a body's vertex lies in a cell, by a ray along the x axis. A vertex (infinitesimally translated)
 /// is never level with one of the cell's.
@@ -49,9 +63,12 @@ void find_events(const ClipInput& input, const Facet& facet, CutCell& cell, std:
     const int side_p = side_of_mesh_edge(a, b, p), side_q = side_of_mesh_edge(a, b, q);
     if (side_p == side_q) continue;
     const Vector &xa = input.outline.position[edge[0]], &xb = input.outline.position[edge[1]];
-    const double on_edge = ratio(area(xp, xq, xa, side_a), area(xp, xq, xb, side_b));
-    const double on_facet = ratio(area(xa, xb, xp, side_p), area(xa, xb, xq, side_q));
+    const double at = ratio(area(xp, xq, xa, side_a), area(xp, xq, xb, side_b),
+                            [&] { return std::pair(std::abs(size(p, q, a)), std::abs(size(p, q, b))); });
+    // Of two that run along each other rounding alone says where they meet, but not beyond the end of one.
+    const double on_edge = std::clamp(between(at, share(xa, xb, xp), share(xa, xb, xq)), 0.0, 1.0);
     const Vector position = xa + on_edge * (xb - xa);
+    const double on_facet = share(xp, xq, position);
     const int along = side.forward[0] > 0 ? 1 : -1;
     cell.crossings.push_back({facet.body, s, along * side_b, along > 0 ? on_edge : 1 - on_edge, position});
     events.push_back({on_facet, along * side_q, position});

@@ -68,7 +68,13 @@ double volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d
   return std::max(0.0, sign * dot(cross(b - a, c - a), d - a));
 }
 
-double ratio(double a, double b) { return a + b > 0 ? a / (a + b) : 0.5; }
+/// a / (a + b); where rounding leaves nothing of both, that of the same sizes on the lattice.
+template <class OnLattice>
+double ratio(double a, double b, const OnLattice& on_lattice) {
+  if (a + b > 0) return a / (a + b);
+  const auto [c, d] = on_lattice();
+  return c + d > 0 ? c / (c + d) : 0.5;
+}
 
 /// Clips one facet after the other to a polyhedron. The facet's plane meets each side in at most one segment,
 /// the trace; traces and the inner parts of the facet's edges, linked at their ends, bound the pieces. All
@@ -170,12 +176,15 @@ void FacetClipper::find_edge_points() {
   next_trace_.assign(cell_.edges.size(), none);
   edge_side_.assign(cell_.edges.size(), {unknown, unknown, unknown});
   for (int e = 0; e < static_cast<int>(cell_.edges.size()); ++e) {
-    const auto [a, b] = cell_.ends[e];
+    const int a = cell_.ends[e][0], b = cell_.ends[e][1];
     if (vertex_side_[a] == vertex_side_[b]) continue;
     const int turn = edge_side(e, 0);
     if (edge_side(e, 1) != turn || edge_side(e, 2) != turn) continue;
     const double share = ratio(volume(place(0), place(1), place(2), position(a), vertex_side_[a]),
-                               volume(place(0), place(1), place(2), position(b), vertex_side_[b]));
+                               volume(place(0), place(1), place(2), position(b), vertex_side_[b]), [&] {
+                                 return std::pair(std::abs(size(corner(0), corner(1), corner(2), vertex(a))),
+                                                  std::abs(size(corner(0), corner(1), corner(2), vertex(b))));
+                               });
     crossing_[e] = static_cast<int>(result_.crossings.size());
     result_.crossings.push_back({facet_->body, cell_.edges[e], vertex_side_[a], share,
                                  position(a) + share * (position(b) - position(a))});
@@ -185,7 +194,11 @@ void FacetClipper::find_edge_points() {
 void FacetClipper::add_event(int side, int k, int from_side) {
   const auto& s = cell_.sides[side];
   const Vector &a = position(s.vertex[0]), &b = position(s.vertex[1]), &c = position(s.vertex[2]);
-  const double share = ratio(volume(a, b, c, place(k), from_side), volume(a, b, c, place(k + 1), -from_side));
+  const double share =
+      ratio(volume(a, b, c, place(k), from_side), volume(a, b, c, place(k + 1), -from_side), [&] {
+        const LatticePoint &p = vertex(s.vertex[0]), &q = vertex(s.vertex[1]), &r = vertex(s.vertex[2]);
+        return std::pair(std::abs(size(p, q, r, corner(k))), std::abs(size(p, q, r, corner(k + 1))));
+      });
   events_[k].push_back({share, from_side > 0, side, place(k) + share * (place(k + 1) - place(k))});
 }
 

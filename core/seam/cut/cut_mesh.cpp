@@ -56,30 +56,37 @@ std::vector<CutCell> clip(const ClipInput& input, const std::vector<std::pair<in
 }
 
 /// Whether no two bodies meet because their boxes do not, and each lies in its box.
-bool are_apart(const Facets& facets, std::span<const Surface> bodies) {
-  if (bodies.size() < 2) return false;  // a single one may overlap itself, and costs the same
-  for (std::size_t b = 0; b < bodies.size(); ++b)
+bool are_apart(const Facets& facets) {
+  const std::size_t bodies = facets.far.size();
+  if (bodies < 2) return false;  // a single one may overlap itself, and costs the same
+  for (std::size_t b = 0; b < bodies; ++b)
     if (!facets.closed[b] || facets.far[b] != 0) return false;
-  std::vector<std::pair<Vector, Vector>> boxes;
-  for (const Surface& body : bodies) {
-    auto& [low, high] = boxes.emplace_back();
-    low.fill(std::numeric_limits<double>::max());
-    high.fill(std::numeric_limits<double>::lowest());
-    for (const int v : body.facets)
-      for (int i = 0; i < body.dimension; ++i) {
-        const double x = body.points[v * body.dimension + i];
-        low[i] = std::min(low[i], x);
-        high[i] = std::max(high[i], x);
+  constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
+  std::vector<LatticePoint> low(bodies, {{most, most, most}}), high(bodies, {{-most, -most, -most}});
+  for (const Facet& f : facets.list)
+    for (const int v : f.vertex)
+      for (int i = 0; i < 3; ++i) {
+        low[f.body].x[i] = std::min(low[f.body].x[i], facets.point[v].x[i]);
+        high[f.body].x[i] = std::max(high[f.body].x[i], facets.point[v].x[i]);
       }
-  }
-  for (std::size_t a = 0; a < boxes.size(); ++a)
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
+  for (std::size_t a = 0; a < bodies; ++a)
+    for (std::size_t b = a + 1; b < bodies; ++b) {
       bool apart = false;
-      for (int i = 0; i < bodies[a].dimension; ++i)
-        apart = apart || boxes[a].second[i] < boxes[b].first[i] || boxes[b].second[i] < boxes[a].first[i];
+      for (int i = 0; i < facets.dimension; ++i)
+        apart = apart || high[a].x[i] < low[b].x[i] || high[b].x[i] < low[a].x[i];
       if (!apart) return false;
     }
   return true;
+}
+
+/// From now on pieces are those of the surfaces that were given, not of the solids that these make up.
+void name_surfaces(const Facets& facets, std::vector<CutCell>& cells) {
+  for (CutCell& c : cells)
+    for (Piece& p : c.pieces) {
+      const auto& [body, facet] = facets.origin[p.body][p.facet];
+      p.body = body;
+      p.facet = facet;
+    }
 }
 
 }  // namespace
@@ -96,7 +103,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
   const int dim = g.outline.dimension;
   g.bodies.assign(bodies.begin(), bodies.end());
   const Lattice before = g.facets.lattice;
-  g.facets = collect_facets(g.outline, bodies);
+  g.facets = collect_facets(g.outline, g.border, bodies);
   if (dim == 2) unite_in_plane(g.facets);
   if (g.vertex.empty() || !(g.facets.lattice == before)) {
     g.vertex.clear();
@@ -104,8 +111,7 @@ void CutMesh::cut(std::span<const Surface> bodies) {
   }
   const ClipInput input{g.outline, g.vertex, g.facets};
   g.cells = clip(input, candidates(g.search, g.facets));
-  const Coverage coverage(*mesh_, g.outline, g.vertex, g.facets, g.cells,
-                          dim == 2 || are_apart(g.facets, bodies));
+  const Coverage coverage(*mesh_, g.outline, g.vertex, g.facets, g.cells, dim == 2 || are_apart(g.facets));
   for (int c = 0; c < mesh_->cells(); ++c) {
     const int vertex = g.outline.sides[g.outline.first_side[c]].vertex[0];
     state_[c] = coverage.count()[vertex] > 0 ? CellState::body : CellState::wet;
@@ -117,10 +123,10 @@ void CutMesh::cut(std::span<const Surface> bodies) {
       unite_in_cell(input, coverage.windings(), CellMap(*mesh_, c.cell).affine(), c);
     else
       find_wet_faces(input, coverage.count(), c);
-    close_seams(g.outline, c);
     measure(g.outline, c);
   }
   settle_slivers(g.outline, g.cells, state_);
+  name_surfaces(g.facets, g.cells);
   g.coverage = coverage.count();
   adopt_ghost_states();
   number_cut_cells();

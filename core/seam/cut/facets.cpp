@@ -9,6 +9,7 @@
 #include <map>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/cut/border.hpp"
 
 namespace seam::cutting {
 namespace {
@@ -81,6 +82,7 @@ class RimFinder {
  private:
   void add(Rim rim) {
     LatticePoint a = facets_.point[rim.vertex[0]], b = facets_.point[rim.vertex[1]];
+    if (facets_.dimension == 3 && a == b) return;  // no edge any more
     int sign = rim.sign;
     if (b < a) {
       std::swap(a, b);
@@ -101,13 +103,22 @@ int append_point(Facets& facets, const Vector& x) {
   return static_cast<int>(facets.position.size()) - 1;
 }
 
+void find_normals(Facets& facets, int first_facet) {
+  for (auto f = facets.list.begin() + first_facet; f != facets.list.end(); ++f)
+    f->normal = normal_into_body(facets.dimension, facets.position[f->vertex[0]],
+                                 facets.position[f->vertex[1]], facets.position[f->vertex[2]]);
+}
+
 void append_facet(Facets& facets, const std::array<int, 3>& v, int body, int facet, const Vector& normal) {
   facets.list.push_back({v, body, facet, normal});
 }
 
 /// Directions out of the surface at the vertices of its rim: away from the middles of the facets there,
-/// weighted with their areas, as narrow ones have no direction but rounding.
-std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::vector<Rim>& rims) {
+/// weighted with their areas, as narrow ones have no direction but rounding. Out of the mesh where the rim
+/// lies in its border.
+/// @param outward as Border::lay_flush returns it
+std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::vector<Rim>& rims,
+                                              const std::vector<Vector>& outward) {
   std::map<LatticePoint, Vector> out;
   for (const Rim& rim : rims)
     for (const int v : rim.vertex) out[facets.point[v]] = {};
@@ -132,11 +143,14 @@ std::map<LatticePoint, Vector> directions_out(const Facets& facets, const std::v
       const Vector& own = known.at(facets.point[rim.vertex[k]]);
       if (dot(own, own) < 1e-20 * largest) out[facets.point[rim.vertex[k]]] = other;
     }
+  for (const Rim& rim : rims)
+    for (const int v : rim.vertex)
+      if (!outward.empty() && outward[v] != Vector{}) out[facets.point[v]] = outward[v];
   return out;
 }
 
 /// Sews a narrow strip to the rim.
-void prolong(Facets& facets, const std::vector<Rim>& rims) {
+void prolong(Facets& facets, const std::vector<Rim>& rims, const std::vector<Vector>& outward) {
   constexpr double share = 1e-6;  // of a facet: beyond all rounding, too little to reach into the mesh again
   double longest = 0;
   for (const Rim& rim : rims) {
@@ -145,7 +159,7 @@ void prolong(Facets& facets, const std::vector<Rim>& rims) {
     longest = std::max(longest, std::sqrt(dot(edge, edge)));
   }
   std::map<LatticePoint, int> prolonged;
-  for (const auto& [point, out] : directions_out(facets, rims)) {
+  for (const auto& [point, out] : directions_out(facets, rims, outward)) {
     const double length = std::sqrt(dot(out, out));
     const Vector shift = length > 0 ? share * longest / length * out : Vector{};
     prolonged[point] = append_point(facets, facets.lattice.position(point) + shift);
@@ -164,40 +178,52 @@ void prolong(Facets& facets, const std::vector<Rim>& rims) {
   }
 }
 
-double enclosed(const Facets& facets, int first_facet) {
+/// Whether a closed surface is turned inside out, beyond what rounding can do to one that encloses next to
+/// nothing.
+bool is_inside_out(const Facets& facets, int first_facet) {
   const Vector origin = facets.position[facets.list[first_facet].vertex[0]];
-  double sum = 0;
+  double sum = 0, size = 0;
   for (int f = first_facet; f < static_cast<int>(facets.list.size()); ++f) {
     const auto& v = facets.list[f].vertex;
     const Vector a = facets.position[v[0]] - origin, b = facets.position[v[1]] - origin;
-    sum +=
-        facets.dimension == 2 ? a[0] * b[1] - a[1] * b[0] : dot(cross(a, b), facets.position[v[2]] - origin);
+    if (facets.dimension == 2) {
+      sum += (a[0] * b[1] - a[1] * b[0]) / 2;
+      size += std::sqrt(dot(b - a, b - a));
+    } else {
+      const Vector c = facets.position[v[2]] - origin, area = cross(b - a, c - a);
+      sum += dot(cross(a, b), c) / 6;
+      size += std::sqrt(dot(area, area)) / 2;
+    }
   }
-  return sum;
+  return sum < -2 * facets.lattice.spacing() * size;
 }
 
-void append_body(Facets& facets, const Surface& surface, int body) {
+void append_body(Facets& facets, const Border& border, const Surface& surface, int body) {
   const int dim = facets.dimension, first_point = static_cast<int>(facets.point.size());
   const int first_facet = static_cast<int>(facets.list.size());
   for (int v = 0; v < surface.point_count(); ++v) append_point(facets, position_of(surface, v));
   for (int f = 0; f < surface.facet_count(); ++f) {
     std::array<int, 3> v{};
     for (int k = 0; k < 3; ++k) v[k] = first_point + surface.facets[f * dim + std::min(k, dim - 1)];
-    const Vector normal =
-        normal_into_body(dim, facets.position[v[0]], facets.position[v[1]], facets.position[v[2]]);
-    append_facet(facets, v, body, f, normal);
+    append_facet(facets, v, body, f, {});
   }
+  // Before a slit is laid onto the border, which leaves nothing of it.
+  const bool inside_out = surface.closed && is_inside_out(facets, first_facet);
+  find_normals(facets, first_facet);
+  const std::vector<Vector> outward = border.lay_flush(facets, first_facet);
+  if (!outward.empty()) find_normals(facets, first_facet);
   const std::vector<Rim> rims = RimFinder(facets, first_facet).rims();
   if (surface.closed && !rims.empty()) {
     const Rim& rim = rims.front();
+    const auto& [given, facet] = facets.origin[body][facets.list[rim.facet].facet];
     throw Error(fmt::format(
         "body {}: its surface is not closed at facet {}, near ({}); close it, or declare it open if its rim "
         "lies outside the mesh",
-        body, facets.list[rim.facet].facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
+        given, facet, fmt::join(facets.position[rim.vertex[0]], ", ")));
   }
-  facets.far.push_back(surface.closed && enclosed(facets, first_facet) < 0 ? 1 : 0);
+  facets.far.push_back(inside_out ? 1 : 0);
   facets.closed.push_back(surface.closed);
-  if (!rims.empty()) prolong(facets, rims);
+  if (!rims.empty()) prolong(facets, rims, outward);
   // Facets without extent meet nothing. Only their edges counted, where neighbours meet at a vertex between.
   const auto is_degenerate = [&](const Facet& f) {
     const LatticePoint &p = facets.point[f.vertex[0]], &q = facets.point[f.vertex[1]];
@@ -209,7 +235,7 @@ void append_body(Facets& facets, const Surface& surface, int body) {
 
 }  // namespace
 
-Facets collect_facets(const Outline& outline, std::span<const Surface> bodies) {
+Facets collect_facets(const Outline& outline, const Border& border, std::span<const Surface> bodies) {
   Facets facets;
   facets.dimension = outline.dimension;
   Vector low = outline.low, high = outline.high;
@@ -224,7 +250,10 @@ Facets collect_facets(const Outline& outline, std::span<const Surface> bodies) {
     }
   }
   facets.lattice = Lattice(low, high);
-  for (std::size_t b = 0; b < bodies.size(); ++b) append_body(facets, bodies[b], static_cast<int>(b));
+  Solids solids = join(bodies, facets.lattice);
+  facets.origin = std::move(solids.origin);
+  for (std::size_t b = 0; b < solids.surfaces.size(); ++b)
+    append_body(facets, border, solids.surfaces[b], static_cast<int>(b));
   return facets;
 }
 
@@ -269,38 +298,53 @@ const Facet* closest_facet(const Facets& facets, int body, const Vector& positio
   return closest;
 }
 
-/// Sum of the crossings on the way, all facets but one.
-int crossings(const Facets& facets, int body, const Facet* except, const LatticePoint& from,
-              const LatticePoint& to) {
+/// Sum of the crossings on the way.
+int crossings(const Facets& facets, int body, const LatticePoint& from, const LatticePoint& to) {
   int sum = 0;
   for (const Facet& f : facets.list)
-    if (counts(f, body) && &f != except) sum += crossing(facets, f, from, to);
+    if (counts(f, body)) sum += crossing(facets, f, from, to);
   return sum;
 }
 
-/// From the side on which the vertex lies of a facet that is not far, and the facets before that one.
+/// A point of the lattice on a facet, or next to it.
+LatticePoint middle_of(const Facets& facets, const Facet& f) {
+  const LatticePoint &p = facets.point[f.vertex[0]], &q = facets.point[f.vertex[1]];
+  const LatticePoint& r = facets.point[f.vertex[2]];
+  LatticePoint middle;
+  for (int i = 0; i < 3; ++i)
+    middle.x[i] = facets.dimension == 2 ? (p.x[i] + q.x[i]) / 2 : (p.x[i] + q.x[i] + r.x[i]) / 3;
+  return middle;
+}
+
+LatticePoint far_from(LatticePoint point) {
+  point.x[0] = std::int64_t{1} << 51;
+  return point;
+}
+
+/// From the side of a facet that is not far, and the facets on the way to it.
 int winding_from_facet(const Facets& facets, int body, const LatticePoint& vertex) {
   const Facet* facet = closest_facet(facets, body, facets.lattice.position(vertex));
   if (facet == nullptr) return 0;
   const LatticePoint &p = facets.point[facet->vertex[0]], &q = facets.point[facet->vertex[1]];
-  const bool behind = facets.dimension == 2 ? side_of_facet(p, q, vertex) > 0
-                                            : side_of_facet(p, q, facets.point[facet->vertex[2]], vertex) < 0;
-  const LatticePoint end = facets.lattice.round(centre_of(facets, *facet));
-  return (behind ? 1 : 0) - crossings(facets, body, facet, vertex, end);
+  const LatticePoint end = middle_of(facets, *facet);
+  const bool behind = facets.dimension == 2 ? side_of_facet(p, q, end) > 0
+                                            : side_of_facet(p, q, facets.point[facet->vertex[2]], end) < 0;
+  return (behind ? 1 : 0) - crossings(facets, body, vertex, end);
 }
 
 }  // namespace
 
 int winding(const Facets& facets, int body, const LatticePoint& vertex) {
   if (!facets.closed[body]) return winding_from_facet(facets, body, vertex);
-  LatticePoint far_away = vertex;
-  far_away.x[0] = std::int64_t{1} << 51;
-  return facets.far[body] - crossings(facets, body, nullptr, vertex, far_away);
+  return facets.far[body] - crossings(facets, body, vertex, far_from(vertex));
 }
 
 int coverage_at(const Facets& facets, const LatticePoint& vertex) {
   if (facets.list.empty()) return facets.all_covered ? 1 : 0;
-  return winding_from_facet(facets, all_bodies, vertex);
+  const bool all_closed = std::find(facets.closed.begin(), facets.closed.end(), false) == facets.closed.end();
+  if (!all_closed) return winding_from_facet(facets, all_bodies, vertex);
+  const bool covers_far = std::any_of(facets.far.begin(), facets.far.end(), [](int w) { return w > 0; });
+  return (covers_far ? 1 : 0) - crossings(facets, all_bodies, vertex, far_from(vertex));
 }
 
 }  // namespace seam::cutting

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "seam/cut/joined.hpp"
 #include "seam/cut/lattice.hpp"
 #include "seam/cut/outline.hpp"
 #include "seam/cut/surface.hpp"
@@ -13,11 +14,12 @@ namespace seam::cutting {
 /// A segment or triangle of the surfaces that cut.
 struct Facet {
   std::array<int, 3> vertex{};  ///< of Facets
-  int body = 0, facet = 0;      ///< where it comes from
+  int body = 0, facet = 0;      ///< where it comes from: a solid, and a facet of that
   Vector normal{};              ///< unit, into the body
 };
 
-/// The boundaries of all bodies on the lattice, bodies behind each other in order.
+/// The boundaries of all bodies on the lattice, bodies behind each other in order. A body here is a solid
+/// with all of its surface, whose parts may be surfaces of their own for all others.
 struct Facets {
   int dimension = 2;
   Lattice lattice;
@@ -29,12 +31,17 @@ struct Facets {
   std::vector<int> far;
   std::vector<bool> closed;  ///< [body]
   bool all_covered = false;  ///< without any facet: whether a body is everywhere, or nowhere
+  /// [body][facet]: the surface, and its facet, of which that is.
+  std::vector<std::vector<std::array<int, 2>>> origin;
 };
 
-/// Checks the surfaces and puts them on a lattice that covers them and the mesh. The rim of an open surface
-/// is prolonged a little, so that it also ends outside of the mesh when it was meant to end on its boundary.
+class Border;
+
+/// Checks the surfaces, joins those of one solid, puts them on a lattice that covers them and the mesh, and
+/// lays what is flush with the mesh's border onto it. The rim of an open surface is prolonged a little, so
+/// that it also ends outside of the mesh when it was meant to end on its boundary.
 /// @throws Error as CutMesh::cut does
-Facets collect_facets(const Outline& outline, std::span<const Surface> bodies);
+Facets collect_facets(const Outline& outline, const Border& border, std::span<const Surface> bodies);
 
 /// +1 when a step from mesh vertex a to b passes the facet from front to back, that is into the body, -1 the
 /// other way, 0 when it misses.

@@ -80,6 +80,7 @@ void FieldCut::choose_sets() {
   mesh_.separate_parts();
   const std::shared_ptr<const PartLayout> before = field_->layout();
   const std::shared_ptr<PartLayout> now = sets_->find(mesh_, active_);
+  warn_of_shared_sets();
   for (const Surface& surface : surfaces_) now->body_points.push_back(surface.points);
   if (before) {
     check_motion(*before);
@@ -88,6 +89,25 @@ void FieldCut::choose_sets() {
   layout_ = now;
   field_->set_layout(layout_);
   accept_states(!before);
+}
+
+/// Says it once in a run, on one rank.
+void FieldCut::warn(const std::string& message) {
+  if (warned_.insert(message).second && field_->mesh().communicator().rank() == 0)
+    fmt::print(stderr, "warning: field '{}': {}\n", field_->name(), message);
+}
+
+void FieldCut::warn_of_shared_sets() {
+  const Communicator& communicator = field_->mesh().communicator();
+  std::vector<std::array<double, 3>> where = sets_->shared();
+  if (!communicator.any(!where.empty())) return;
+  if (!warned_.insert("shared").second) return;
+  where = communicator.gather_all(where);
+  const auto first = *std::min_element(where.begin(), where.end());
+  warn(fmt::format(
+      "bodies part it into more than {} parts around one node, first near ({:.6g}, {:.6g}, {:.6g}); some "
+      "of them share unknowns there, so that they leak into each other; use smaller cells there",
+      field_->sets(), first[0], first[1], first[2]));
 }
 
 /// Parts of a cell are recognised by where they lie, as long as a body moves by less than half a cell.

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,8 @@ class FieldCut {
   enum class Decision : char { body, kept, dropped };
   [[nodiscard]] bool states_match() const;
   void choose_sets();
+  void warn_of_shared_sets();
+  void warn(const std::string& message);
   void check_motion(const PartLayout& before) const;
   void accept_states(bool at_start);
   [[nodiscard]] std::vector<char> open_parts(const WetParts& parts) const;
@@ -106,6 +109,7 @@ class FieldCut {
   Extension extension_;
   std::unique_ptr<PartSets> sets_;  ///< null where parts are not told apart
   std::shared_ptr<const PartLayout> layout_;
+  std::set<std::string> warned_;  ///< what was said, once in a run
 };
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "seam/cut/border.hpp"
 #include "seam/cut/cell_search.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/facets.hpp"
@@ -91,10 +92,15 @@ void visit_boundary(int dimension, const CutCell& cell, const Visit& visit) {
 namespace seam {
 
 struct CutMesh::Geometry {
-  explicit Geometry(const Mesh& mesh) : outline(mesh), search(outline, mesh.cells()), ghosts(mesh) {}
+  explicit Geometry(const Mesh& mesh)
+      : outline(mesh),
+        search(outline, mesh.cells()),
+        border(outline, mesh.owned_cells(), mesh.communicator()),
+        ghosts(mesh) {}
 
   cutting::Outline outline;
   cutting::CellSearch search;
+  cutting::Border border;
   cutting::GhostValues ghosts;
   std::vector<Surface> bodies;
   cutting::Facets facets;

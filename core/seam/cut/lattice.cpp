@@ -109,6 +109,18 @@ bool collinear(const LatticePoint& p, const LatticePoint& q, const LatticePoint&
   return along_translation(product(difference(q, p), difference(r, p))) == 0;
 }
 
+double size(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
+  return static_cast<double>(area(a, b, c));
+}
+
+double size(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c, const LatticePoint& d) {
+  const auto normal = product(difference(b, a), difference(c, a));
+  const LatticePoint e = difference(d, a);
+  long double sum = 0;
+  for (int i = 0; i < 3; ++i) sum += static_cast<long double>(normal[i]) * static_cast<long double>(e.x[i]);
+  return static_cast<double>(sum);
+}
+
 int orientation(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c) {
   return sign(area(a, b, c));
 }

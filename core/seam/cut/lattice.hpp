@@ -64,6 +64,13 @@ int side_of_edges(const LatticePoint& a, const LatticePoint& b, const LatticePoi
 /// In space: whether three points lie on a line.
 bool collinear(const LatticePoint& p, const LatticePoint& q, const LatticePoint& r);
 
+// Sizes on the lattice, rounded: for what is too small, or too close, for the positions to tell.
+
+/// Twice the area of abc, negative when clockwise.
+double size(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c);
+/// Six times the volume of abcd.
+double size(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c, const LatticePoint& d);
+
 // Without any translation: zero when the points are collinear or coplanar.
 int orientation(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c);
 int orientation(const LatticePoint& a, const LatticePoint& b, const LatticePoint& c, const LatticePoint& d);

@@ -15,8 +15,9 @@ namespace {
 constexpr int bits = 2;  ///< for the number of a set: at most 4
 constexpr int per_word = 15;
 
-/// Orders the sets of a node: first that in whose wet part it lies, which alone has number 0, then those that
-/// undivided cells use, by the lowest number of a cell.
+/// Orders the sets of a node: first that in whose wet part it lies, which has number 0, then those that
+/// undivided cells use, by the lowest number of a cell. Where the node lies in none of them number 0 is used
+/// only when all others are taken.
 struct Key {
   bool apart = true;  ///< the node lies elsewhere
   int undivided = std::numeric_limits<int>::max(), cell = undivided, part = 0;
@@ -44,20 +45,23 @@ class NodeParts {
   };
 
   /// Calls assign(member, set), unless all are of set 0.
+  /// @return whether there are sets for all, so that none is shared
   template <class Assign>
-  void number(int most, const Assign& assign) const {
+  bool number(int most, const Assign& assign) const {
     const int count = static_cast<int>(members_.size());
     DisjointSets sets(count);
     connect(sets);
     std::map<int, Key> key;  // by root
     for (int k = 0; k < count; ++k) key[sets.root(k)];
-    if (key.size() < 2) return;
+    if (key.size() < 2) return true;
     for (int k = 0; k < count; ++k) key[sets.root(k)].include(key_of(members_[k]));
     std::map<Key, int> order;
     for (const auto& [root, k] : key) order[k] = 0;
-    int next = order.begin()->first.apart ? 1 : 0;
+    const int wanted = static_cast<int>(order.size());
+    int next = order.begin()->first.apart && wanted < most ? 1 : 0;
     for (auto& [k, number] : order) number = std::min(next++, most - 1);
     for (int k = 0; k < count; ++k) assign(members_[k], order.at(key.at(sets.root(k))));
+    return wanted <= most;
   }
 
  private:
@@ -93,8 +97,8 @@ class NodeParts {
 
 }  // namespace
 
-PartSets::Sets PartSets::choose(const CutMesh& cut, const std::vector<char>& active,
-                                const Space& space) const {
+PartSets::Sets PartSets::choose(const CutMesh& cut, const std::vector<char>& active, const Space& space,
+                                std::vector<std::array<double, 3>>& shared) const {
   const int per_cell = space.nodes_per_cell(), cells = field_->mesh().cells();
   Sets sets(cells);
   std::vector<char> wanted(space.nodes(), 0);
@@ -106,9 +110,10 @@ PartSets::Sets PartSets::choose(const CutMesh& cut, const std::vector<char>& act
   }
   const CellsOfNodes cells_of(space, wanted);
   for (const int node : cells_of.nodes())
-    NodeParts(cut, active, cells_of.around(node), space.position(node))
-        .number(space.sets(),
-                [&](const auto& m, int set) { sets[m.cell][m.part * per_cell + m.node] = set; });
+    if (!NodeParts(cut, active, cells_of.around(node), space.position(node))
+             .number(space.sets(),
+                     [&](const auto& m, int set) { sets[m.cell][m.part * per_cell + m.node] = set; }))
+      std::copy_n(space.position(node), cut.mesh().dimension(), shared.emplace_back().begin());
   exchange(per_cell, sets);
   return sets;
 }
@@ -136,7 +141,8 @@ void PartSets::exchange(int per_cell, Sets& sets) const {
   }
 }
 
-std::shared_ptr<PartLayout> PartSets::find(const CutMesh& cut, const std::vector<char>& active) const {
+std::shared_ptr<PartLayout> PartSets::find(const CutMesh& cut, const std::vector<char>& active) {
+  shared_.clear();
   auto layout = std::make_shared<PartLayout>();
   layout->active = active;
   std::array<Sets, 2> sets;
@@ -144,7 +150,7 @@ std::shared_ptr<PartLayout> PartSets::find(const CutMesh& cut, const std::vector
   for (const Block& block : field_->blocks()) {
     const int o = block.space->order() - 1;
     spaces[o] = block.space.get();
-    sets[o] = choose(cut, active, *block.space);
+    sets[o] = choose(cut, active, *block.space, shared_);
   }
   const auto is_listed = [&](int c) {
     if (cut.parts(c) > 1) return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -18,14 +19,21 @@ class PartSets {
 
   /// Collective. @param cut whose parts are told apart
   /// @param active per local cell
-  [[nodiscard]] std::shared_ptr<PartLayout> find(const CutMesh& cut, const std::vector<char>& active) const;
+  [[nodiscard]] std::shared_ptr<PartLayout> find(const CutMesh& cut, const std::vector<char>& active);
+
+  /// Positions of local nodes around which there were more parts than a node has sets: some of these share
+  /// unknowns.
+  [[nodiscard]] const std::vector<std::array<double, 3>>& shared() const { return shared_; }
 
  private:
   using Sets = std::vector<std::vector<int>>;  ///< [cell][part, node of the cell]
-  [[nodiscard]] Sets choose(const CutMesh& cut, const std::vector<char>& active, const Space& space) const;
+  /// @param shared gets the positions of nodes that have fewer sets than parts around them
+  [[nodiscard]] Sets choose(const CutMesh& cut, const std::vector<char>& active, const Space& space,
+                            std::vector<std::array<double, 3>>& shared) const;
   void exchange(int per_cell, Sets& sets) const;
   const Field* field_;
   cutting::GhostValues ghosts_;
+  std::vector<std::array<double, 3>> shared_;
 };
 
 /// In Block::known, until the states are extended.

@@ -40,33 +40,34 @@ void hand_over(int dimension, const CutCell& sliver, int face, const Vector& out
   Vector anchor{};
   for (const WetPart& w : sliver.wet)
     if (w.face == face) anchor = w.corner[0];
+  std::vector<std::pair<Piece, double>> laid;  // and their shares
   double sum = 0;
-  std::vector<double> share;
   for (const Piece& p : sliver.pieces) {
     const Vector a = vector_area(dimension, sliver, p);
     // Pieces at right angles to the face have no share but rounding.
     const double opposite = dot(a, normal);
-    sum += share.emplace_back(opposite > 1e-12 * length(a) ? opposite : 0.0);
-  }
-  double laid = 0;
-  for (std::size_t k = 0; k < share.size(); ++k) {
-    Piece piece = sliver.pieces[k];
+    if (opposite <= 1e-12 * length(a)) continue;
+    Piece piece = p;
     piece.handed_over = true;
     piece.normal = normal;
     piece.scale = 1;
-    const int first = piece.first;
     piece.first = static_cast<int>(receiver.points.size());
     for (int i = 0; i < piece.count; ++i) {
-      const Vector& x = sliver.points[first + i];
+      const Vector& x = sliver.points[p.first + i];
       receiver.points.push_back(x - dot(x - anchor, normal) * normal);
     }
-    const double own = length(vector_area(dimension, receiver, piece));
-    if (share[k] == 0 || own == 0) continue;
-    piece.scale = area * share[k] / sum / own;
-    laid += area * share[k] / sum;
+    // As the rule on it measures it, so that rounding of its direction opens nothing.
+    const double own = dot(vector_area(dimension, receiver, piece), normal);
+    if (own <= 0) continue;
+    piece.scale = area / own;
+    laid.emplace_back(piece, opposite);
+    sum += opposite;
+  }
+  for (auto& [piece, opposite] : laid) {
+    piece.scale *= opposite / sum;
     receiver.pieces.push_back(piece);
   }
-  if (laid == 0 && !sliver.pieces.empty()) lay_face(dimension, sliver, face, outward, receiver);
+  if (laid.empty() && !sliver.pieces.empty()) lay_face(dimension, sliver, face, outward, receiver);
 }
 
 class Settlement {
@@ -164,34 +165,6 @@ void measure(const Outline& outline, CutCell& cell) {
     cell.wet_volume += sign / dim * dot(x[0] - centre, vector_area(dim, x[0], x[1], x[2]));
   });
   for (const Piece& p : cell.pieces) cell.interface_area += length(vector_area(dim, cell, p));
-}
-
-void close_seams(const Outline& outline, CutCell& cell) {
-  const int dim = outline.dimension;
-  constexpr double rounding = 1e-9;  // of the cell's size, and of a cosine
-  const double reach = rounding * std::pow(outline.volume(cell.cell), 1.0 / dim);
-  for (int s = outline.first_side[cell.cell]; s < outline.first_side[cell.cell + 1]; ++s) {
-    const Side& side = outline.sides[s];
-    if (outline.neighbour[cell.cell][side.face] >= 0) continue;
-    const Vector normal = side_normal(outline, side), origin = outline.position[side.vertex[0]];
-    const auto lies_in_side = [&](const Piece& piece) {
-      if (dot(piece.normal, normal) > rounding - 1) return false;
-      const Vector* x = &cell.points[piece.first];
-      return std::all_of(x, x + piece.count,
-                         [&](const Vector& point) { return std::abs(dot(point - origin, normal)) < reach; });
-    };
-    for (const Piece& piece : cell.pieces) {
-      if (!lies_in_side(piece)) continue;
-      const Vector* x = &cell.points[piece.first];
-      for (int k = 1; k + (dim == 3 ? 1 : 0) < piece.count; ++k) {
-        WetPart less{side.face, normal, {x[0], x[k], x[dim == 3 ? k + 1 : k]}, -1.0, 0.0};
-        less.area = -dot(vector_area(dim, less.corner[0], less.corner[1], less.corner[2]), normal);
-        cell.wet.push_back(less);
-        cell.united = false;
-      }
-    }
-    std::erase_if(cell.pieces, lies_in_side);
-  }
 }
 
 void settle_slivers(const Outline& outline, std::vector<CutCell>& cells, std::vector<CellState>& state) {

@@ -13,10 +13,6 @@ constexpr double smallest_part = 1e-11;
 /// Volumes and areas of a cut cell from its boundary.
 void measure(const Outline& outline, CutCell& cell);
 
-/// Takes pieces away that lie in a side of the mesh's border, with no more than rounding between, and what
-/// they leave wet of it: a body flush with the border touches no fluid there.
-void close_seams(const Outline& outline, CutCell& cell);
-
 /// Takes cut cells out whose wet part is too small: they become body. Their pieces go to the neighbours
 /// behind their wet faces, laid onto those faces with the faces' areas, so that every neighbour's interface
 /// and remaining wet faces still close. A neighbour that was not cut becomes so. Cut cells whose interface

@@ -68,7 +68,8 @@ class Union {
 };
 
 void Union::arrange(const std::vector<Segment>& segments) {
-  arranged_ = {facets_.dimension, facets_.lattice, {}, {}, {}, facets_.far, facets_.closed, false};
+  arranged_ = {facets_.dimension, facets_.lattice, {}, {}, {}, facets_.far, facets_.closed, false,
+               facets_.origin};
   std::map<LatticePoint, int> number;
   const auto vertex = [&](const LatticePoint& p, const Vector& x) {
     const auto [entry, is_new] = number.try_emplace(p, static_cast<int>(number.size()));
