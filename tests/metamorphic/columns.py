@@ -28,8 +28,10 @@ INTEGRALS = {
     "fluid_outflow": ("m/s", "A"), "body_outflow": ("m/s", "A"), "seepage": ("m/s", "A"), "force": ("Pa", "A"),
     "contact_force": ("Pa", "A")}
 
-# What adds up to next to nothing, or would vanish if the method were exact: its deviations are those of its terms.
-REMAINDERS = ("divergence", "dropped_volume", "mismatch", "mismatch_across", "mismatch_along", "jump", "apart", "overlap")
+# What adds up to next to nothing, or would vanish if the method were exact, deviates as its terms do; extremes at integration
+# points, as these do.
+REMAINDERS = ("divergence", "dropped_volume", "mismatch", "mismatch_across", "mismatch_along", "jump", "apart", "overlap",
+              "fluid_outflow", "gap", "pressure", "contact_pressure")
 
 
 @dataclasses.dataclass
@@ -49,8 +51,9 @@ class Column:
 
     @property
     def is_remainder(self):
-        """Whether it is small against its terms."""
-        return self.name.rsplit(".", 1)[-1] in REMAINDERS
+        """Whether it is small against its terms, or an extreme of integration points."""
+        owner, _, what = self.name.rpartition(".")
+        return bool(owner) and what in REMAINDERS
 
     def new(self, frame):
         """Its name and its sign in a frame."""

@@ -16,7 +16,6 @@ import fnmatch
 import json
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -65,11 +64,11 @@ def expand_circles(tree, facets=48):
     return tree
 
 
-def compare_variant(seam, tree, base, table, relation, folder):
+def compare_variant(seam, tree, base, table, relation, folder, reuse):
     """One row of the results."""
     folder.mkdir(parents=True, exist_ok=True)
     variant = relations.RELATIONS[relation](tree, table, folder)
-    run = runs.run(seam, variant.tree, folder)
+    run = runs.run(seam, variant.tree, folder, reuse)
     if run.failure:
         return compare.Deviation(failure=run.failure), run
     series = {old: run.series[new] for old, new in variant.names.items() if new in run.series} | {"time": run.series["time"]} \
@@ -100,16 +99,16 @@ def run_scene(seam, schema, name, entry, wanted, folder, reuse):
     for relation in wanted:
         if relation in entry.get("without", {}):
             continue
-        start = time.monotonic()
         try:
-            deviation, run = compare_variant(seam, tree, base, table, relation, own / relation.replace(" ", "_").replace("/", "over"))
+            below = own / relation.replace(" ", "_").replace("/", "over")
+            deviation, run = compare_variant(seam, tree, base, table, relation, below, reuse)
         except Exception as error:  # whatever it is, the other rows are wanted
             deviation, run = compare.Deviation(failure=f"{type(error).__name__}: {error}"), runs.Run({})
         rows.append(dict(scene=name, family=entry["family"], relation=relation, dimension=int(tree["dimension"].value),
                          largest=deviation.largest, column=deviation.column, remainder=deviation.remainder,
                          remainder_column=deviation.remainder_column, compared=deviation.compared, failure=deviation.failure,
                          steps=base.steps, iterations=[base.iterations, run.iterations],
-                         seconds=round(time.monotonic() - start, 2)))
+                         seconds=round(run.seconds, 3)))
         judge(rows[-1])
     return rows
 
@@ -131,6 +130,12 @@ def relations_of(options, in_ci, name):
     return [relation for relation in every if fnmatch.fnmatch(relation, options.relation)]
 
 
+def write_rows(folder, rows):
+    """For --rows; whole at any time."""
+    (folder / "rows.part").write_text(json.dumps(rows, indent=1))
+    (folder / "rows.part").rename(folder / "rows.json")
+
+
 def later(earlier, rows):
     """Rows of an earlier run of scenes that are still to come."""
     done = {row["scene"] for row in rows}
@@ -146,8 +151,7 @@ def main():
     parser.add_argument("--relation", default="*", help="pattern of names of relations")
     parser.add_argument("--keep", type=Path, help="folder in which scenes and results stay")
     parser.add_argument("--record", action="store_true", help="write docs/results/metamorphic")
-    parser.add_argument("--rows", type=Path, help="rows.json of an earlier run, from --keep, to which rows are added")
-    parser.add_argument("--none", action="store_true", help="run nothing: judge and record what --rows holds")
+    parser.add_argument("--rows", type=Path, help="rows.json of an earlier run, from --keep, to which rows are added; runs of the same scenes are not repeated")
     options = parser.parse_args()
     seam = str(options.seam.resolve())
     schema = scenes.Schema(seam)
@@ -157,7 +161,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = options.keep or Path(temporary)
         for name, entry in table.items():
-            wanted = [] if options.none else relations_of(options, [n for n in table if table[n].get("ci")], name)
+            wanted = relations_of(options, [n for n in table if table[n].get("ci")], name)
             before = {row["relation"]: row for row in earlier if row["scene"] == name}
             chosen = fnmatch.fnmatch(name, options.scene) and (entry.get("ci") or not options.ci)
             new = run_scene(seam, schema, name, entry, wanted, folder.resolve(), bool(options.rows)) if chosen and wanted else []
@@ -168,7 +172,7 @@ def main():
             both = before | {row["relation"]: row for row in new}
             rows += [both[relation] for relation in ("as written", *relations.RELATIONS) if relation in both]
             if options.keep:
-                (folder / "rows.json").write_text(json.dumps(rows + later(earlier, rows), indent=1))
+                write_rows(folder, rows + later(earlier, rows))
     for row in rows:
         judge(row)
     failed = sum(row["verdict"] == "FAILED" for row in rows)

@@ -38,11 +38,16 @@ def processor():
     return f"{names[0]}, {len(names)} cores" if names else "unknown"
 
 
+def program():
+    """The last commit that changed the program; those of tests do not count."""
+    return first_line(["git", "log", "-1", "--format=%h", "--abbrev=12", "--", "core", "plugins", "tools/cli"])
+
+
 def header(title, command, seconds, note=""):
     """Title, machine, commit, command of a record."""
     return [f"# {title}", "", f"- machine: {platform.system()} {platform.release()} {platform.machine()}, {processor()}",
-            f"- commit: {first_line(['git', 'rev-parse', '--short=12', 'HEAD'])}" + (f" ({note})" if note else ""),
-            f"- date: {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC", f"- command: `{command}`, {seconds:.0f} s", ""]
+            f"- commit: {program()}" + (f"; {note}" if note else ""),
+            f"- date: {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC", f"- command: `{command}`" + (f", {seconds:.0f} s" if seconds else ""), ""]
 
 
 def of_group(rows, family, group):
@@ -100,7 +105,7 @@ def write(rows, seconds):
              f"{counts['known']} with a known defect, {counts['FAILED']} not.",
              "The deviation is the largest over all times and columns of `series.csv`, over the largest value of the column (of the "
              "vector for components); columns below 1e-8 are left out. Remainders are columns that add up to next to nothing, as "
-             "`divergence` and `mismatch`. All rows: [metamorphic.csv](metamorphic.csv). What is allowed, and why: "
+             "`divergence` and `mismatch`, and extremes at integration points, as `gap`. All rows: [metamorphic.csv](metamorphic.csv). What is allowed, and why: "
              "[expected.py](../../../tests/metamorphic/expected.py). The last column gives what another harness, written "
              "independently, found with scenes of its own.", ""]
     text += table(rows) + ["", "## Deviations with a reason of their own", ""] + apart(rows) + [""]

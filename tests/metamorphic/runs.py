@@ -6,7 +6,6 @@ import json
 import os
 import shutil
 import subprocess
-import time
 
 import scene as scenes
 
@@ -41,28 +40,26 @@ def run(seam, tree, folder, reuse=False, limit=1800):
     before = path.read_text() if path.exists() else ""
     scenes.write(tree, path)
     if reuse and path.read_text() == before and (results / "summary.json").exists():
-        return left(results, 0.0)
+        return left(results)
     shutil.rmtree(results, ignore_errors=True)
-    start = time.monotonic()
     try:
         done = subprocess.run([seam, "run", path.name, "--folder", "results", "--quiet", "--no-picture"], cwd=folder,
                               env=ENVIRONMENT, capture_output=True, text=True, timeout=limit)
     except subprocess.TimeoutExpired:
         return Run({}, failure=f"more than {limit} s")
-    seconds = time.monotonic() - start
     if done.returncode != 0:
         lines = [line for line in (done.stderr + done.stdout).splitlines() if line.strip()]
         told = next((line for line in lines if "error" in line.lower()), lines[0] if lines else "")
         told = "a signal ended it" if done.returncode < 0 else told
-        return Run({}, seconds=seconds, failure=f"exit {done.returncode}: {told}")
-    return left(results, seconds)
+        return Run({}, failure=f"exit {done.returncode}: {told}")
+    return left(results)
 
 
-def left(results, seconds):
+def left(results):
     """What a finished run left in its folder."""
     summary = json.loads((results / "summary.json").read_text())
     iterations = sum(len(step["iterations"]) - 1 for step in summary["newton"])
-    return Run(read_series(results / "series.csv"), iterations, summary["rejected_steps"], seconds)
+    return Run(read_series(results / "series.csv"), iterations, summary["rejected_steps"], summary["seconds"]["total"])
 
 
 def read_series(path):
