@@ -28,10 +28,10 @@ INTEGRALS = {
     "fluid_outflow": ("m/s", "A"), "body_outflow": ("m/s", "A"), "seepage": ("m/s", "A"), "force": ("Pa", "A"),
     "contact_force": ("Pa", "A")}
 
-# What adds up to next to nothing, or would vanish if the method were exact, deviates as its terms do; extremes at integration
-# points, as these do.
+# What adds up to next to nothing, or would vanish if the method were exact, deviates as its terms do; what is least,
+# greatest or in touch among integration points, as these do.
 REMAINDERS = ("divergence", "dropped_volume", "mismatch", "mismatch_across", "mismatch_along", "jump", "apart", "overlap",
-              "fluid_outflow", "gap", "pressure", "contact_pressure")
+              "fluid_outflow", "gap", "pressure", "contact_pressure", "area", "contact_area")
 
 
 @dataclasses.dataclass
@@ -51,7 +51,7 @@ class Column:
 
     @property
     def is_remainder(self):
-        """Whether it is small against its terms, or an extreme of integration points."""
+        """Whether it is small against its terms, or decided among integration points."""
         owner, _, what = self.name.rpartition(".")
         return bool(owner) and what in REMAINDERS
 

@@ -44,10 +44,12 @@ LARGER = [
     (("contact in fluid in space",), RENUMBERING,
      Allowed(5e-3, 0.2, PIECES + "; slip that grows as 1/gap is no polynomial; the least gap is that of integration points")),
     (("touching in space",), ("moved by a thousand",), Allowed(0, 0, "segmentation fault in CellUnion::add_leaf", known=True)),
-    (("touching in space",), RENUMBERING + ("moved*", "length*", "mass*", "time*", "all units", "cyclic*"),
+    (("touching in space",), RENUMBERING + ("moved*", "length*", "mass*", "time*", "all units", "cyclic*", "*reversed"),
      Allowed(0, 0, FROZEN, known=True)),
     # In the plane.
     (("edges on a line",), ("turned*", "mirrored", "moved*", "cyclic*"), Allowed(1e-2, 1.0, LINE)),
+    (("bar",), ("moved by a thousand",),
+     Allowed(0, 0, "gaps are rounded to 1e-13 there, which is more than Newton's 1e-11 allows: a step is halved", known=True)),
     (("separate parts",), RENUMBERING, Allowed(0, 0, "parts that meet around a node inside of a body share unknowns", known=True)),
     (("cavity",), ("lists reversed",), Allowed(0, 0, "of boundaries that meet with different values the last one counts", known=True)),
     (("fsi fitted",), ("*units",), Allowed(0, 0, "rows of mesh motion and of forces are not scaled: the linear solve is refused", known=True)),

@@ -105,7 +105,7 @@ def write(rows, seconds):
              f"{counts['known']} with a known defect, {counts['FAILED']} not.",
              "The deviation is the largest over all times and columns of `series.csv`, over the largest value of the column (of the "
              "vector for components); columns below 1e-8 are left out. Remainders are columns that add up to next to nothing, as "
-             "`divergence` and `mismatch`, and extremes at integration points, as `gap`. All rows: [metamorphic.csv](metamorphic.csv). What is allowed, and why: "
+             "`divergence` and `mismatch`, and what is decided among integration points, as `gap` and `area`. All rows: [metamorphic.csv](metamorphic.csv). What is allowed, and why: "
              "[expected.py](../../../tests/metamorphic/expected.py). The last column gives what another harness, written "
              "independently, found with scenes of its own.", ""]
     text += table(rows) + ["", "## Deviations with a reason of their own", ""] + apart(rows) + [""]

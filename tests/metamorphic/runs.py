@@ -39,7 +39,7 @@ def run(seam, tree, folder, reuse=False, limit=1800):
     results = folder / "results"
     before = path.read_text() if path.exists() else ""
     scenes.write(tree, path)
-    if reuse and path.read_text() == before and (results / "summary.json").exists():
+    if reuse and path.read_text() == before and is_finished(results):
         return left(results)
     shutil.rmtree(results, ignore_errors=True)
     try:
@@ -53,6 +53,12 @@ def run(seam, tree, folder, reuse=False, limit=1800):
         told = "a signal ended it" if done.returncode < 0 else told
         return Run({}, failure=f"exit {done.returncode}: {told}")
     return left(results)
+
+
+def is_finished(results):
+    """Whether a run came to its end."""
+    summary = results / "summary.json"
+    return summary.exists() and json.loads(summary.read_text())["status"] == "finished"
 
 
 def left(results):
