@@ -7,7 +7,9 @@
 # build     compile, warnings are errors
 # fast      unit, property and command line tests
 # scenes    every scene of configs/ against its own checks, but for those of the nightly tier
-# nightly   the scenes of the nightly tier: long runs, not part of `all`
+# nightly   the scenes of the nightly tier, then `metamorphic` and `endurance`: long runs, not part of `all`
+# metamorphic  all scenes of tests/metamorphic written anew, runs compared; `fast` has one scene of each family
+# endurance    a scene of each family under valgrind, 2,000 steps of a moving cut
 # install   plugins built out of tree against an installed Seam
 # sanitize  the fast tests but for the studies among them, with address and undefined behaviour sanitizers
 # fuzz      the readers of scenes and meshes, 60 s each
@@ -86,7 +88,31 @@ stage_scenes() {
 stage_nightly() {
   local scenes
   mapfile -t scenes < <(find "$seam_root/configs" -name '*.yaml' -exec grep -l '^tier: nightly' {} + | sort)
+  local failed_before=$failed
   verify_scenes "${scenes[@]}"
+  stage_metamorphic
+  stage_endurance
+  [ "$failed" = "$failed_before" ]
+}
+
+stage_metamorphic() {
+  local log=$seam_build/metamorphic.log
+  tests/metamorphic/metamorphic.py "$seam_build/bin/seam" >"$log" 2>&1
+  local code=$? sums
+  grep -v '^ok' "$log"
+  # Without this line the program broke off.
+  sums=$(sed -nE 's/^([0-9]+) passed, ([0-9]+) failed$/\1 \2/p' "$log")
+  # shellcheck disable=SC2086  # two numbers
+  if [ -n "$sums" ]; then count $sums; else count_one $code; fi
+}
+
+stage_endurance() {
+  local failed_before=$failed
+  tests/endurance/valgrind.py "$seam_build/bin/seam"
+  count_one $?
+  tests/endurance/moving_cut.py "$seam_build/bin/seam"
+  count_one $?
+  [ "$failed" = "$failed_before" ]
 }
 
 # verify_scenes SCENE...: runs scenes and compares them with their checks, each in a process and a folder of its own, as
@@ -164,8 +190,8 @@ stages=("$@")
 [ $# = 0 ] && stages=(build fast scenes install)
 [ "${stages[*]}" = all ] && stages=("${all_stages[@]}")
 for stage in "${stages[@]}"; do
-  if [[ " ${all_stages[*]} nightly " != *" $stage "* ]]; then
-    echo "There is no stage '$stage'; there are: ${all_stages[*]}, nightly, and 'all'" >&2
+  if [[ " ${all_stages[*]} nightly metamorphic endurance " != *" $stage "* ]]; then
+    echo "There is no stage '$stage'; there are: ${all_stages[*]}, nightly, metamorphic, endurance, and 'all'" >&2
     exit 2
   fi
 done
