@@ -31,24 +31,26 @@ void wait_for_step(const Folder& folder, const std::string& where) {
   pause(0.3);
 }
 
-/// One step was taken, and all of it is on disk; from there the run goes on to the end as one that nobody
-/// interrupted.
-void check_interrupted(const Folder& folder, const std::string& scene) {
+/// Some steps were taken, the last one to its end, and all of it is on disk; from there the run goes on to
+/// the end as one that nobody interrupted.
+void check_interrupted(const Folder& folder, const std::string& scene, std::size_t most = 1) {
   const auto s = summary(folder, "r");
   CHECK(s["status"] == "interrupted");
-  CHECK(s["steps"] == 1);
-  CHECK(std::filesystem::exists(folder.path / "r/restart/00000001.restart"));
-  CHECK(table(folder.read("r/series.csv")).size() == 2);
-  CHECK_THAT(folder.read("r/block.pvd"), Contains("timestep=\"0.1\""));
+  const auto steps = s["steps"].get<std::size_t>();
+  CHECK(steps >= 1);
+  CHECK(steps <= most);
+  CHECK(std::filesystem::exists(folder.path / ("r/restart/0000000" + std::to_string(steps) + ".restart")));
+  CHECK(table(folder.read("r/series.csv")).size() == steps + 1);
+  CHECK_THAT(folder.read("r/block.pvd"), Contains("block-00000" + std::to_string(steps)));
   CHECK_THAT(folder.read("r/events.jsonl"), Contains("\"status\":\"interrupted\""));
 
   const std::string fast = " --set functions.slow.seconds=0";
   const Result resumed = seam(run(scene, folder.path / "r", "--resume --changed" + fast));
   INFO(resumed.output);
   CHECK(resumed.code == 0);
-  CHECK_THAT(resumed.output, Contains("continues from t = 0.1, step 1"));
+  CHECK_THAT(resumed.output, Contains("step " + std::to_string(steps) + "\n"));
   REQUIRE(seam(run(scene, folder.path / "whole", fast)).code == 0);
-  CHECK(difference(folder.read("r/series.csv"), folder.read("whole/series.csv")) < 1e-12);
+  CHECK(difference(folder.read("r/series.csv"), folder.read("whole/series.csv"), 1) < 1e-9);
   CHECK(summary(folder, "r")["status"] == "finished");
 }
 
@@ -71,12 +73,13 @@ TEST_CASE("SIGUSR1 to mpirun lets all ranks finish the step", "[mpi]") {
 TEST_CASE("SIGTERM to mpirun does when it leaves the ranks time", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(step_seconds));
-  Process process(run(scene, folder.path / "r"), two_ranks + "--mca odls_base_sigkill_timeout 20",
+  Process process(run(scene, folder.path / "r"), two_ranks + "--mca odls_base_sigkill_timeout 8",
                   (folder.path / "log").string());
   wait_for_step(folder, "r");
   process.send(SIGTERM);
   CHECK(process.wait() != 0);
-  check_interrupted(folder, scene);
+  // mpirun waits so long before it sends SIGTERM, and as long before it kills.
+  check_interrupted(folder, scene, 3);
 }
 
 TEST_CASE("SIGTERM to a single rank ends all of them", "[mpi]") {
