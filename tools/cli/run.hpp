@@ -29,7 +29,7 @@ struct SceneOutcome {
   Results results;
   std::vector<CheckResult> checks;
   std::filesystem::path folder;
-  bool lacks_picture = false;  ///< one that the scene asks for could not be made
+  bool lacks_picture = false;     ///< one that the scene asks for could not be made
   std::filesystem::path picture;  ///< empty when none was made
   Timings timings;
   long long unknowns = 0;
