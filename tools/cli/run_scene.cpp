@@ -188,7 +188,8 @@ SceneOutcome run_scene(const SceneRun& run) {
   outcome.peak_memory = summary["peak_memory_bytes"];
   folder.finish(simulation.status());
   if (run.pictures && wants_picture(scene)) {
-    const auto& shown = simulation.problem().field(scene.root.object("output").object("picture").text("field"));
+    const auto& shown =
+        simulation.problem().field(scene.root.object("output").object("picture").text("field"));
     const bool deforms = std::ranges::any_of(shown.field->unknowns(),
                                              [](const Unknown& u) { return u.name == "displacement"; });
     if (communicator.rank() == 0) outcome.picture = make_picture(scene, folder, deforms);
