@@ -94,10 +94,16 @@ struct Ways {
     Crossing first;
     for (int f = 0; f < from.facet_count(); ++f) {
       double low = after, high = 1;
-      if ((height(f, low) > 0) != inwards || (height(f, high) > 0) == inwards) continue;
+      // What lies on a facet is still in front of it before it goes in, and no longer behind it before it
+      // comes out.
+      const auto in_front = [&](double time) {
+        const double h = height(f, time);
+        return inwards ? h >= 0 : h > 0;
+      };
+      if (in_front(low) != inwards || in_front(high) == inwards) continue;
       for (int k = 0; k < 40; ++k) {
         const double middle = 0.5 * (low + high);
-        ((height(f, middle) > 0) == inwards ? low : high) = middle;
+        (in_front(middle) == inwards ? low : high) = middle;
       }
       const std::array<Vector, 3> corner = facet(f, high);
       if (high < first.time && is_over(from.dimension, corner, at(high)))
