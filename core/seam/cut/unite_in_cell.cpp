@@ -167,7 +167,14 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
     nodes_.push_back(node.get());
     node->plane = plane;
     std::vector<Fragment> before, behind;
+    const auto number = chosen - fragments.begin();
     for (Fragment& f : fragments) {
+      // The chosen one lies in its own plane, whatever rounding has made of a narrow one: so this comes to an
+      // end.
+      if (&f == &fragments[number]) {
+        node->in_plane.push_back(std::move(f));
+        continue;
+      }
       double low = 0, high = 0;
       for (const Vector& x : f.corner) {
         low = std::min(low, plane.height(x));
