@@ -21,7 +21,7 @@ class Allowed:
 # remainders are differences of terms a thousand times as large and more.
 ROUNDING = Allowed(1e-9, 1e-7, "rounding; Newton at 1e-11")
 FAR = Allowed(1e-8, 1e-6, "coordinates of a thousand sizes have three digits less")
-SAME = Allowed(0.0, 0.0, "the same to the bit")
+SAME = Allowed(1e-11, 1e-10, "the same to the bit but for maps, which are evaluated here with another rounding")
 
 BY_RELATION = {"moved by a thousand": FAR, "renamed": ROUNDING, "grids as files": SAME}
 
