@@ -181,7 +181,8 @@ interfaces:
 coupling: [{type: contact, on: down}, {type: contact, on: up}]
 time: {static: true, end: 1, step: {initial: 1, minimum: 0.05}}
 output: {fields: false}
-)yaml") + " --quiet --no-picture --folder " + (folder.path / "out").string());
+)yaml") + " --quiet --no-picture --folder " +
+                         (folder.path / "out").string());
   CAPTURE(done.output);
   // At t = 1 the upper block's top lies below the lower block: there is no such state.
   CHECK(done.code == 1);

@@ -40,8 +40,8 @@ class Assembler {
   [[nodiscard]] std::vector<double> rounding() const;
   /// Sizes of an unknown of a local node, for absolute_product(): of a component of a block there.
   using SizeOf = std::function<double(const Field& field, const Block& block, int component, double value)>;
-  /// The last matrix, each entry by its size, times sizes of the unknowns, [owned row]. What other ranks alone
-  /// know of is left out.
+  /// The last matrix, each entry by its size, times sizes of the unknowns, [owned row]. What other ranks
+  /// alone know of is left out.
   [[nodiscard]] std::vector<double> absolute_product(const SizeOf& size_of) const;
 
   [[nodiscard]] const Matrix& matrix() const { return matrix_; }

@@ -176,10 +176,10 @@ class Problem {
   /// Cuts meshes anew, runs the space updates and rebuilds where needed. Collective.
   /// @throws StepRefused when a body moved further than states can be carried
   SpaceChange update_spaces(const TimePoint& at);
-  /// Where the level of an unknown is fixed at a node, as that of the pressure in a closed part of a fluid, the
-  /// node's equation is given up for it. It holds all the same if what is prescribed goes together: what is
-  /// left of it flows in or out at that node, where there is nothing. From the last assembly, with its tangent.
-  /// Collective. @throws Error where this is more than a part of what flows anywhere
+  /// Where the level of an unknown is fixed at a node, as that of the pressure in a closed part of a fluid,
+  /// the node's equation is given up for it. It holds all the same if what is prescribed goes together: what
+  /// is left of it flows in or out at that node, where there is nothing. From the last assembly, with its
+  /// tangent. Collective. @throws Error where this is more than a part of what flows anywhere
   void check_levels() const;
   /// From now to the end of the step unknowns of fields that bodies cut may come but not go.
   void hold_spaces();
