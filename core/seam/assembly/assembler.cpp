@@ -154,24 +154,8 @@ std::string Assembler::describe_not_finite(const TimePoint& at) {
   return {text.begin(), end};
 }
 
-std::vector<double> Assembler::rounding() const {
-  constexpr double spacing = std::numeric_limits<double>::epsilon();
-  std::map<const Block*, std::vector<double>> added;  // what the components of a block are added to
-  for (const NumberedBlock& b : blocks_) {
-    double extent = 0;
-    for (int node = 0; node < b.block->space->nodes(); ++node)
-      for (int d = 0; d < b.field->mesh().dimension(); ++d)
-        extent = std::max(extent, std::abs(b.block->space->position(node)[d]));
-    extent = communicator_.max(extent);
-    for (const char displaces : displacements(*b.field, *b.block))
-      added[b.block].push_back(displaces ? extent : 0.0);
-  }
-  return absolute_product([&](const Field&, const Block& block, int component, double value) {
-    return spacing * (std::abs(value) + added.at(&block)[component]);
-  });
-}
-
-std::vector<double> Assembler::absolute_product(const SizeOf& size_of) const {
+template <class Product>
+std::vector<double> Assembler::absolute_product(const SizeOf& size_of, const Product& product) const {
   std::vector<double> size(pending_.size(), 0.0);  // per local unknown
   for (const NumberedBlock& b : blocks_)
     for (std::size_t node = 0; node < b.node_index.size(); ++node) {
@@ -184,8 +168,33 @@ std::vector<double> Assembler::absolute_product(const SizeOf& size_of) const {
   for (int r = 0; r < matrix_.rows; ++r)
     for (std::size_t k = matrix_.row_start[r]; k < matrix_.row_start[r + 1]; ++k)
       if (const auto column = static_cast<std::size_t>(matrix_.column[k]); column < size.size())
-        result[r] += std::abs(matrix_.value[k]) * size[column];
+        result[r] += product(matrix_.value[k], size[column]);
   return result;
+}
+
+std::vector<double> Assembler::rounding() const {
+  constexpr double spacing = std::numeric_limits<double>::epsilon();
+  std::map<const Block*, std::vector<double>> added;  // to the size of each component of a block
+  for (const NumberedBlock& b : blocks_) {
+    const Mesh& mesh = b.field->mesh();
+    double cell = 0;
+    for (int c = 0; c < mesh.owned_cells(); ++c) cell = std::max(cell, mesh.diameter(c));
+    cell = communicator_.max(cell);
+    for (const char displaces : displacements(*b.field, *b.block))
+      added[b.block].push_back(displaces ? cell : 0.0);
+  }
+  // Roundings are as often up as down: their squares add up.
+  std::vector<double> squares = absolute_product(
+      [&](const Field&, const Block& block, int component, double value) {
+        return spacing * (std::abs(value) + added.at(&block)[component]);
+      },
+      [](double entry, double size) { return entry * size * entry * size; });
+  for (double& square : squares) square = std::sqrt(square);
+  return squares;
+}
+
+std::vector<double> Assembler::absolute_product(const SizeOf& size_of) const {
+  return absolute_product(size_of, [](double entry, double size) { return std::abs(entry) * size; });
 }
 
 void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tangent) {

@@ -34,9 +34,10 @@ class Assembler {
   /// Says what is not finite at the present states: the term, what it speaks of, the cell and the point; ""
   /// when everything is. Evaluates terms one by one: not for every step. Collective.
   [[nodiscard]] std::string describe_not_finite(const TimePoint& at);
-  /// What the rounding of unknowns makes of the residual, [owned row]: the matrix, each entry by its size,
-  /// times the spacing of floating-point numbers at the unknowns, where displacements count as what they are
-  /// added to, positions. From the last matrix. Collective.
+  /// What the rounding of unknowns makes of the residual, [owned row]: the matrix times the spacing of
+  /// floating-point numbers at the unknowns, added up as what goes up as often as down. Displacements count
+  /// as no less than a cell is wide: what they are is seen beside the 1 of the deformation gradient. From the
+  /// last matrix. Collective.
   [[nodiscard]] std::vector<double> rounding() const;
   /// Sizes of an unknown of a local node, for absolute_product(): of a component of a block there.
   using SizeOf = std::function<double(const Field& field, const Block& block, int component, double value)>;
@@ -101,6 +102,9 @@ class Assembler {
   void add_held_block(int row_node, int column_node, const NodeBlock& block);
   void hold_prescribed(bool with_tangent);
   [[nodiscard]] bool all_finite(bool with_tangent) const;
+  /// @param product of an entry of the matrix and the size of its unknown
+  template <class Product>
+  [[nodiscard]] std::vector<double> absolute_product(const SizeOf& size_of, const Product& product) const;
 
   std::vector<Field*> fields_;
   Communicator communicator_;

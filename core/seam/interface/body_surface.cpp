@@ -86,10 +86,10 @@ Surface BodySurface::now() const {
 double BodySurface::rest_area(int facet) const {
   const int dim = boundary_.surface.dimension;
   std::array<cutting::Vector, 3> corner{};
-  for (int k = 0; k < dim; ++k)
-    std::copy_n(&boundary_.surface.points[static_cast<std::size_t>(
-                    boundary_.surface.facets[static_cast<std::size_t>(facet) * dim + k] * dim)],
-                dim, corner[k].begin());
+  for (int k = 0; k < dim; ++k) {
+    const int vertex = boundary_.surface.facets[static_cast<std::size_t>(facet) * dim + k];
+    std::copy_n(&boundary_.surface.points[static_cast<std::size_t>(vertex) * dim], dim, corner[k].begin());
+  }
   using namespace cutting;
   const Vector edge = corner[1] - corner[0], area = cross(edge, corner[2] - corner[0]);
   return dim == 2 ? std::sqrt(dot(edge, edge)) : 0.5 * std::sqrt(dot(area, area));
