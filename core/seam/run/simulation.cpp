@@ -20,9 +20,9 @@ namespace seam {
 
 std::map<std::string, std::shared_ptr<const MeshData>> load_meshes(const Scene& scene) {
   std::map<std::string, std::shared_ptr<const MeshData>> meshes;
-  for (const auto& [name, parameters] : scene.root.map("meshes"))
-    meshes[name] = needing_memory(fmt::format("the mesh '{}'", name), parameters.where(),
-                                  [&] { return std::make_shared<MeshData>(load_mesh(parameters)); });
+  for (const auto& entry : scene.root.map("meshes"))
+    meshes[entry.first] = needing_memory(fmt::format("the mesh '{}'", entry.first), entry.second.where(),
+                                         [&] { return std::make_shared<MeshData>(load_mesh(entry.second)); });
   return meshes;
 }
 
@@ -68,9 +68,10 @@ void Simulation::build_fields(const Registry& registry) {
           fmt::format("the distributed mesh '{}' ({} cells)", mesh, meshes_.at(mesh)->cell_count()),
           parameters.where(),
           [&] { return std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh)); });
-    needing_memory(fmt::format("the unknowns of the field '{}'", name), parameters.where(), [&] {
-      problem_.add_field(name, meshes[mesh], registry.create<Physics>("field", parameters));
-    });
+    needing_memory(fmt::format("the unknowns of the field '{}'", name), parameters.where(),
+                   [&, &field = name, &of_field = parameters] {
+                     problem_.add_field(field, meshes[mesh], registry.create<Physics>("field", of_field));
+                   });
   }
 }
 
