@@ -42,8 +42,8 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
     for (const Unknown& unknown : entry.field->unknowns()) {
       const Field::Place place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
-      // Squares of residual, magnitude, increment, change in the step, rounding.
-      std::vector<double> sums(5, 0.0);
+      // Squares of residual, magnitude, increment, change in the step, rounding, and change alone.
+      std::vector<double> sums(6, 0.0);
       for (int node = 0; node < block.space->owned_nodes(); ++node) {
         const int row = assembler.row(*entry.field, place.block, node, place.offset);
         if (row < 0) continue;
@@ -55,11 +55,14 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
           const double change = std::abs(block.now.value[i] - block.old.value[i]);
           sums[3] += std::pow(change + steady_part * std::abs(block.now.value[i]), 2);
           if (!rounding.empty()) sums[4] += std::pow(rounding[row + c], 2);
+          sums[5] += change * change;
         }
       }
       problem_.communicator().sum(sums);
-      const double residual = std::sqrt(sums[0]), least = std::sqrt(sums[4]) / options_.tolerance,
-                   scale = std::max(std::sqrt(sums[1]), least);
+      // What moves has a scale of its own.
+      const double noise = sums[5] == 0 ? std::sqrt(sums[4]) : 0;
+      const double residual = std::sqrt(sums[0]),
+                   scale = std::max(std::sqrt(sums[1]), noise / options_.tolerance);
       // Without any contribution the unknown's equations hold.
       const double relative = scale > 0 ? residual / scale : 0.0;
       if (size.worst.empty() || relative > size.residual) {
@@ -67,15 +70,15 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
         size.worst = entry.name + "." + unknown.name;
       }
       // At the rounding error of its equations an unknown's increments are noise.
-      if (relative <= rounding_error || (!rounding.empty() && residual <= std::sqrt(sums[4]))) continue;
+      if (relative <= rounding_error || (noise > 0 && residual <= noise)) continue;
       size.at_rounding = false;
       if (sums[3] > 0) size.increment = std::max(size.increment, std::sqrt(sums[2] / sums[3]));
     }
   return size;
 }
 
-/// Measures the present state. What nothing acts on has a residual of rounding errors that no force beside it
-/// makes look small: where the residual does not fall, these errors are estimated.
+/// Measures the present state. What nothing acts on does not move, and has a residual of rounding errors that
+/// no force beside it makes look small: these errors are estimated.
 Newton::Size Newton::measure_with_rounding(const NewtonIteration& entry) const {
   Size size = measure(increment_, entry.damping);
   const bool stays = starts_ || size.residual > 0.5 * size_.residual;
