@@ -132,7 +132,7 @@ std::vector<Facet<T>> facets(const seam::Surface& surface) {
 template <class T>
 std::vector<Simplex<T>> column(const std::vector<Simplex<T>>& parts, int dim, const Facet<T>& facet,
                                int side) {
-  const auto& [a, b, c] = facet.corner;
+  const Position<T>&a = facet.corner[0], &b = facet.corner[1], &c = facet.corner[2];
   const auto signed_by = [side](const T& x) { return side > 0 ? x : T(-x); };
   if (dim == 2) {
     auto result = below<T>(parts, 2, [&](const auto& p) { return T((p[0] - a[0]) * T(side > 0 ? -1 : 1)); });

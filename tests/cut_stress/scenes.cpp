@@ -66,7 +66,7 @@ Surface slit(int dim, Draw& draw) {
   const double at = draw.place();
   x[axis] = {at, at + draw.scale(1e-16, 1e-10) * draw.cell()};
   if (x[axis][1] <= x[axis][0]) x[axis][1] = std::nextafter(at, 2.0);
-  const Surface result = block(dim, x);
+  Surface result = block(dim, x);
   if (draw.chance(0.5)) return result;
   return moved(result, rotated(dim, 6 * draw.unit(), {1, 1, 1},
                                {0.3 * draw.unit(), 0.3 * draw.unit(), 0.3 * draw.unit()}));

@@ -496,7 +496,7 @@ Options read(int count, char** words) {
 int main(int count, char** words) {
   MPI_Init(&count, &words);
   const Options options = read(count, words);
-  const bool good = run(options, 2) & run(options, 3);
+  const bool plane = run(options, 2), space = run(options, 3), good = plane && space;
   MPI_Finalize();
   return good ? 0 : 1;
 }

@@ -38,10 +38,11 @@ std::vector<Conflict> conflicts_of(const FieldEntry& entry, double time) {
       const double before = claim->second.value;
       constexpr double rounding = 1e-12;
       const bool differs = std::abs(before - value) > rounding * (std::abs(before) + std::abs(value));
-      const bool known = std::ranges::any_of(
-          found, [&](const Conflict& c) { return c.first == claim->second.condition && c.second == k; });
+      const int first = claim->second.condition;
+      const bool known =
+          std::ranges::any_of(found, [&](const Conflict& c) { return c.first == first && c.second == k; });
       if (!is_new && differs && !known) {
-        Conflict& conflict = found.emplace_back(Conflict{claim->second.condition, k, before, value, {}});
+        Conflict& conflict = found.emplace_back(Conflict{first, k, before, value, {}});
         std::copy_n(x, dim, conflict.at);
       }
       claim->second = {k, value};
@@ -56,10 +57,12 @@ std::vector<Diagnostic> Problem::find_conflicts(double time) const {
   std::vector<Diagnostic> warnings;
   for (const FieldEntry& entry : fields_) {
     std::vector<Conflict> all = communicator_.gather_all(conflicts_of(entry, time));
-    std::ranges::stable_sort(all, {}, [](const Conflict& c) { return std::pair(c.first, c.second); });
-    const auto same = std::ranges::unique(
-        all, [](const Conflict& a, const Conflict& b) { return a.first == b.first && a.second == b.second; });
-    all.erase(same.begin(), same.end());
+    const auto pair = [](const Conflict& c) { return std::pair(c.first, c.second); };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Conflict& a, const Conflict& b) { return pair(a) < pair(b); });
+    all.erase(std::unique(all.begin(), all.end(),
+                          [&](const Conflict& a, const Conflict& b) { return pair(a) == pair(b); }),
+              all.end());
     for (const Conflict& c : all) {
       const PrescribedCondition &first = entry.conditions[c.first], &second = entry.conditions[c.second];
       warnings.push_back(
