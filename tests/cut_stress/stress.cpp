@@ -17,9 +17,9 @@
 #include "seam/cut/outline.hpp"
 
 using namespace seam;
+using cutting::operator*;  // NOLINT(misc-unused-using-decls): in a template
 using cutting::operator+;
 using cutting::operator-;
-using cutting::operator*;
 
 namespace {
 

@@ -128,7 +128,8 @@ TEST_CASE("a folder that vanishes during the run is told") {
   CHECK_THAT(process.output(), Contains("somebody has deleted the file, or its folder"));
 }
 
-TEST_CASE("what memory is lacking for is named, and other scenes are verified all the same") {
+TEST_CASE("what memory is lacking for is named, and other scenes are verified all the same",
+          "[unsanitized]") {
   const Folder folder;
   const std::string block = SEAM_SOURCE_DIR "/configs/solid/patch_2d.yaml";
   const std::string huge = folder.file(
