@@ -82,7 +82,8 @@ class Communicator {
   }
   template <class T>
   [[nodiscard]] static int bytes_of(const std::vector<T>& values) {
-    check_bytes(static_cast<long long>(values.size() * sizeof(T)));  // NOLINT(bugprone-misplaced-widening-cast)
+    check_bytes(
+        static_cast<long long>(values.size() * sizeof(T)));  // NOLINT(bugprone-misplaced-widening-cast)
     return static_cast<int>(values.size() * sizeof(T));
   }
   template <class T>
