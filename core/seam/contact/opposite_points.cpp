@@ -5,29 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/contact/facet_vertices.hpp"
+
 namespace seam {
 
 using namespace cutting;
-
-namespace {
-
-std::array<Vector, 3> vertices(const Surface& surface, int facet) {
-  const int dim = surface.dimension;
-  std::array<Vector, 3> result{};
-  for (int k = 0; k < dim; ++k) {
-    const int p = surface.facets[static_cast<std::size_t>(facet) * dim + k];
-    std::copy_n(&surface.points[static_cast<std::size_t>(p) * dim], dim, result[k].begin());
-  }
-  return result;
-}
-
-Vector point_on(int dim, const std::array<Vector, 3>& vertices, const double* on_facet) {
-  Vector x = vertices[0];
-  for (int k = 1; k < dim; ++k) x = x + on_facet[k - 1] * (vertices[k] - vertices[0]);
-  return x;
-}
-
-}  // namespace
 
 OppositePoints::OppositePoints(const BodySurface& own, const BodySurface* other, Surface opposite,
                                ContactWindow window)
@@ -37,7 +19,9 @@ OppositePoints::OppositePoints(const BodySurface& own, const BodySurface* other,
       search_(std::move(opposite)),
       window_(window) {}
 
-std::array<Vector, 3> OppositePoints::own_vertices(int facet) const { return vertices(surface_, facet); }
+std::array<Vector, 3> OppositePoints::own_vertices(int facet) const {
+  return facet_vertices(surface_, facet);
+}
 
 double OppositePoints::area(int facet) const {
   const Vector n = facet_normal(surface_.dimension, own_vertices(facet));
@@ -63,7 +47,7 @@ FacetSearch::Exclude OppositePoints::neighbours(int facet) const {
 }
 
 bool OppositePoints::has_passed(int facet, const double* on_facet) const {
-  const Vector x = point_on(surface_.dimension, own_vertices(facet), on_facet);
+  const Vector x = point_on_facet(surface_.dimension, own_vertices(facet), on_facet);
   return search_.encloses(x.data(), normal(facet).data(), window_.depth, neighbours(facet));
 }
 
@@ -74,12 +58,12 @@ std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double*
   pair.dimension = dim;
   pair.own = own_vertices(facet);
   std::copy_n(on_facet, dim - 1, pair.on_own.begin());
-  const Vector x = point_on(dim, pair.own, on_facet);
+  const Vector x = point_on_facet(dim, pair.own, on_facet);
   const auto found =
       search_.find(x.data(), normal(facet).data(), window_.depth, window_.reach, neighbours(facet));
   if (!found) return std::nullopt;
   hit.facet = found->facet;
-  pair.opposite = vertices(search_.surface(), found->facet);
+  pair.opposite = facet_vertices(search_.surface(), found->facet);
   pair.on_opposite = found->on_facet;
   pair.gap = found->gap;
   return hit;
@@ -87,7 +71,7 @@ std::optional<OppositePoints::Hit> OppositePoints::find(int facet, const double*
 
 std::optional<FacetSearch::Hit> OppositePoints::facing(int facet, const double* on_facet, double depth,
                                                        double reach) const {
-  const Vector x = point_on(surface_.dimension, own_vertices(facet), on_facet);
+  const Vector x = point_on_facet(surface_.dimension, own_vertices(facet), on_facet);
   return search_.find(x.data(), normal(facet).data(), depth, reach, neighbours(facet));
 }
 
@@ -97,7 +81,7 @@ OppositePoints::Hit OppositePoints::far_hit(int facet, const double* on_facet, i
   pair.dimension = surface_.dimension;
   pair.own = own_vertices(facet);
   std::copy_n(on_facet, pair.dimension - 1, pair.on_own.begin());
-  pair.opposite = vertices(search_.surface(), other_facet);
+  pair.opposite = facet_vertices(search_.surface(), other_facet);
   pair.on_opposite = {0.25, 0.25};
   pair.gap = std::numeric_limits<double>::infinity();
   return hit;
@@ -120,7 +104,7 @@ std::vector<OppositePoints::Stretch> OppositePoints::stretches(int facet, double
   for (const int other : near)
     for (int k = 0; k < 2; ++k) {
       const int vertex = search_.surface().facets[static_cast<std::size_t>(other) * 2 + k];
-      const Vector r = vertices(search_.surface(), other)[k] - own[0];
+      const Vector r = facet_vertices(search_.surface(), other)[k] - own[0];
       const double share = dot(r, along) / dot(along, along), height = dot(r, direction);
       constexpr double least = 1e-9;
       if (share > from + least && share < to - least && height >= -window_.depth && height <= window_.reach)
@@ -147,7 +131,7 @@ OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
     std::vector<int> near;
     search_.find_near(low.data(), high.data(), facing, near);
     for (const int other : near) {
-      const std::array<Vector, 3> v = vertices(search_.surface(), other);
+      const std::array<Vector, 3> v = facet_vertices(search_.surface(), other);
       const Vector edge = v[1] - v[0], way = x - v[0];
       const double length = std::sqrt(dot(edge, edge)), there = dot(way, edge) / (length * length);
       const double height = (way[0] * edge[1] - way[1] * edge[0]) / length;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/contact/facet_vertices.hpp"
+
 namespace seam {
 
 using namespace cutting;
@@ -26,21 +28,8 @@ double longest_way(const Surface& from, const Surface& to) {
   return std::sqrt(most);
 }
 
-std::array<Vector, 3> corners(const Surface& surface, int facet) {
-  const int dim = surface.dimension;
-  std::array<Vector, 3> result{};
-  for (int k = 0; k < dim; ++k) {
-    const int p = surface.facets[static_cast<std::size_t>(facet) * dim + k];
-    std::copy_n(&surface.points[static_cast<std::size_t>(p) * dim], dim, result[k].begin());
-  }
-  return result;
-}
-
 Vector point_of(const Surface& surface, int facet, const std::array<double, 2>& on_facet) {
-  const std::array<Vector, 3> corner = corners(surface, facet);
-  Vector x = corner[0];
-  for (int k = 1; k < surface.dimension; ++k) x = x + on_facet[k - 1] * (corner[k] - corner[0]);
-  return x;
+  return point_on_facet(surface.dimension, facet_vertices(surface, facet), on_facet.data());
 }
 
 Vector unit_normal(int dim, const std::array<Vector, 3>& corner) {
@@ -69,7 +58,7 @@ struct Ways {
 
   [[nodiscard]] Vector at(double time) const { return start + time * (end - start); }
   [[nodiscard]] std::array<Vector, 3> facet(int number, double time) const {
-    const std::array<Vector, 3> a = corners(from, number), b = corners(to, number);
+    const std::array<Vector, 3> a = facet_vertices(from, number), b = facet_vertices(to, number);
     std::array<Vector, 3> result{};
     for (int k = 0; k < 3; ++k) result[k] = a[k] + time * (b[k] - a[k]);
     return result;
@@ -168,7 +157,7 @@ void Passage::check(const OppositePoints& opposite, double least_gap) {
       const auto behind = opposite.facing(facet, place.data(), way + window_.depth, window_.reach);
       if (!behind || behind->gap >= -window_.depth) continue;
       const Vector start = point_of(own_start_, facet, place), end = point_of(own, facet, place),
-                   start_normal = unit_normal(own.dimension, corners(own_start_, facet));
+                   start_normal = unit_normal(own.dimension, facet_vertices(own_start_, facet));
       if (Ways{opposite_start_, now, start, end}.height(behind->facet, 0) < -window_.depth) continue;
       if (!at_start) at_start.emplace(opposite_start_);
       const bool overlaps =
