@@ -13,6 +13,8 @@ namespace seam {
 namespace {
 
 constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
+/// In rounding errors of the residual: forces below that are none. A strain of 1e-10 has larger ones.
+constexpr double nothing_acts = 1e6;
 /// Part of a value that counts as its change in the step: in a steady state increments are noise.
 constexpr double steady_part = 1e-6;
 /// Iterations in which unknowns may come and go; then they may only come, lest a step cycle between two sets
@@ -42,8 +44,8 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
     for (const Unknown& unknown : entry.field->unknowns()) {
       const Field::Place place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
-      // Squares of residual, magnitude, increment, change in the step, rounding, and change alone.
-      std::vector<double> sums(6, 0.0);
+      // Squares of residual, magnitude, increment, change in the step, rounding.
+      std::vector<double> sums(5, 0.0);
       for (int node = 0; node < block.space->owned_nodes(); ++node) {
         const int row = assembler.row(*entry.field, place.block, node, place.offset);
         if (row < 0) continue;
@@ -55,12 +57,11 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
           const double change = std::abs(block.now.value[i] - block.old.value[i]);
           sums[3] += std::pow(change + steady_part * std::abs(block.now.value[i]), 2);
           if (!rounding.empty()) sums[4] += std::pow(rounding[row + c], 2);
-          sums[5] += change * change;
         }
       }
       problem_.communicator().sum(sums);
-      // What moves has a scale of its own.
-      const double noise = sums[5] == 0 ? std::sqrt(sums[4]) : 0;
+      // Where something acts, its forces are the scale.
+      const double noise = std::sqrt(sums[1]) < nothing_acts * std::sqrt(sums[4]) ? std::sqrt(sums[4]) : 0;
       const double residual = std::sqrt(sums[0]),
                    scale = std::max(std::sqrt(sums[1]), noise / options_.tolerance);
       // Without any contribution the unknown's equations hold.
