@@ -17,6 +17,8 @@ if [ "$(id -u)" = 0 ]; then
 fi
 # Shared-memory tricks of Open MPI need rights that containers often withhold.
 export OMPI_MCA_btl_vader_single_copy_mechanism=none
+# Tests run side by side: a rank that waits leaves its core to one that works.
+export OMPI_MCA_mpi_yield_when_idle=1
 
 seam_needed_packages() { sed 's/#.*//; s/[[:space:]]//g; /^$/d' "$seam_root/tools/packages.txt"; }
 

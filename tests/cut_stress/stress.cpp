@@ -384,13 +384,7 @@ class Stress {
         // Where next to nothing of a neighbour is cut off, that one is taken for whole.
         const double most = cut.state(other) == CellState::wet ? 2 * most_per_facet : rounding;
         const double off = std::abs(wet_face(c, f) - wet_face(other, back)) / bed_->face_area(global, f);
-        // In space several bodies are united cell by cell, in floating point: where a face of the mesh lies
-        // in what two bodies leave between them, which is next to nothing, its two cells may not agree on it.
-        // Counted, no failure.
-        if (dim_ == 3 && scene_.bodies.size() > 1 && off > most)
-          ++tally_->disagreements;
-        else
-          check(tally_->faces, off, most, "faces of neighbours", global);
+        check(tally_->faces, off, most, "faces of neighbours", global);
       }
   }
 

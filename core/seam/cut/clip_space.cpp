@@ -65,7 +65,8 @@ void load(const ClipInput& input, int cell, Polyhedron& p) {
 
 /// Six times the volume of abcd, made to agree with its exact sign: where it does not, it is mere rounding.
 double volume(const Vector& a, const Vector& b, const Vector& c, const Vector& d, int sign) {
-  return std::max(0.0, sign * dot(cross(b - a, c - a), d - a));
+  const auto [p, q, r] = longest_opposite(a, b, c);
+  return std::max(0.0, sign * dot(cross(q - p, r - p), d - p));
 }
 
 /// a / (a + b); where rounding leaves nothing of both, that of the same sizes on the lattice.
@@ -76,13 +77,36 @@ double ratio(double a, double b, const OnLattice& on_lattice) {
   return c + d > 0 ? c / (c + d) : 0.5;
 }
 
+/// Of segment and triangle that lie nearly in one plane rounding alone says where on the way from a to b they
+/// meet, but not beyond the triangle's rim: exact signs have told that the segment passes through it.
+/// @param noise how far positions may be from where the signs have them
+double on_triangle(double share, const Vector& a, const Vector& b, const std::array<Vector, 3>& corner,
+                   double noise) {
+  const auto [p, q, r] = longest_opposite(corner[0], corner[1], corner[2]);
+  const Vector normal = cross(q - p, r - p);
+  double first = 0, last = 1;
+  for (int k = 0; k < 3; ++k) {
+    const Vector out = cross(corner[(k + 1) % 3] - corner[k], normal);
+    // Along the rim itself it is the lattice that tells.
+    const double blur = noise * std::sqrt(dot(out, out));
+    const double at_a = dot(out, a - corner[k]) - blur, at_b = dot(out, b - corner[k]) - blur;
+    if ((at_a > 0) == (at_b > 0)) continue;
+    const double rim = at_a / (at_a - at_b);
+    if (at_a > 0)
+      first = std::max(first, rim);
+    else
+      last = std::min(last, rim);
+  }
+  return first <= last ? std::clamp(share, first, last) : 0.5 * (first + last);
+}
+
 /// Clips one facet after the other to a polyhedron. The facet's plane meets each side in at most one segment,
 /// the trace; traces and the inner parts of the facet's edges, linked at their ends, bound the pieces. All
 /// that is decided is decided by exact signs, so that every trace finds its continuation.
 class FacetClipper {
  public:
   FacetClipper(const ClipInput& input, const Polyhedron& cell, CutCell& result)
-      : input_(input), cell_(cell), result_(result) {}
+      : input_(input), cell_(cell), result_(result), noise_(16 * input.facets.lattice.spacing()) {}
 
   void clip(const Facet& facet);
 
@@ -125,6 +149,7 @@ class FacetClipper {
   const ClipInput& input_;
   const Polyhedron& cell_;
   CutCell& result_;
+  double noise_;  ///< of positions: what is flush is some steps of the lattice off them
   const Facet* facet_ = nullptr;
   std::vector<signed char> vertex_side_;               ///< [vertex]
   std::vector<std::array<signed char, 3>> edge_side_;  ///< [edge][edge of the facet]
@@ -180,11 +205,12 @@ void FacetClipper::find_edge_points() {
     if (vertex_side_[a] == vertex_side_[b]) continue;
     const int turn = edge_side(e, 0);
     if (edge_side(e, 1) != turn || edge_side(e, 2) != turn) continue;
-    const double share = ratio(volume(place(0), place(1), place(2), position(a), vertex_side_[a]),
-                               volume(place(0), place(1), place(2), position(b), vertex_side_[b]), [&] {
-                                 return std::pair(std::abs(size(corner(0), corner(1), corner(2), vertex(a))),
-                                                  std::abs(size(corner(0), corner(1), corner(2), vertex(b))));
-                               });
+    const double at = ratio(volume(place(0), place(1), place(2), position(a), vertex_side_[a]),
+                            volume(place(0), place(1), place(2), position(b), vertex_side_[b]), [&] {
+                              return std::pair(std::abs(size(corner(0), corner(1), corner(2), vertex(a))),
+                                               std::abs(size(corner(0), corner(1), corner(2), vertex(b))));
+                            });
+    const double share = on_triangle(at, position(a), position(b), {place(0), place(1), place(2)}, noise_);
     crossing_[e] = static_cast<int>(result_.crossings.size());
     result_.crossings.push_back({facet_->body, cell_.edges[e], vertex_side_[a], share,
                                  position(a) + share * (position(b) - position(a))});
@@ -192,13 +218,20 @@ void FacetClipper::find_edge_points() {
 }
 
 void FacetClipper::add_event(int side, int k, int from_side) {
-  const auto& s = cell_.sides[side];
-  const Vector &a = position(s.vertex[0]), &b = position(s.vertex[1]), &c = position(s.vertex[2]);
-  const double share =
-      ratio(volume(a, b, c, place(k), from_side), volume(a, b, c, place(k + 1), -from_side), [&] {
-        const LatticePoint &p = vertex(s.vertex[0]), &q = vertex(s.vertex[1]), &r = vertex(s.vertex[2]);
-        return std::pair(std::abs(size(p, q, r, corner(k))), std::abs(size(p, q, r, corner(k + 1))));
-      });
+  // The cell behind the side turns it round: both work with its vertices in one order, hence to the bit.
+  std::array<int, 3> v = cell_.sides[side].vertex;
+  int turn = from_side;
+  for (const auto& [i, j] : {std::pair(0, 1), std::pair(1, 2), std::pair(0, 1)})
+    if (vertex(v[j]) < vertex(v[i])) {
+      std::swap(v[i], v[j]);
+      turn = -turn;
+    }
+  const Vector &a = position(v[0]), &b = position(v[1]), &c = position(v[2]);
+  const double at = ratio(volume(a, b, c, place(k), turn), volume(a, b, c, place(k + 1), -turn), [&] {
+    const LatticePoint &p = vertex(v[0]), &q = vertex(v[1]), &r = vertex(v[2]);
+    return std::pair(std::abs(size(p, q, r, corner(k))), std::abs(size(p, q, r, corner(k + 1))));
+  });
+  const double share = on_triangle(at, place(k), place(k + 1), {a, b, c}, noise_);
   events_[k].push_back({share, from_side > 0, side, place(k) + share * (place(k + 1) - place(k))});
 }
 

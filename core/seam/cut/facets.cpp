@@ -45,7 +45,8 @@ Vector position_of(const Surface& surface, int vertex) {
 }
 
 /// A unit vector, or zero where the facet has no extent.
-Vector normal_into_body(int dimension, const Vector& p, const Vector& q, const Vector& r) {
+Vector normal_into_body(int dimension, const Vector& a, const Vector& b, const Vector& c) {
+  const auto [p, q, r] = dimension == 2 ? std::array{a, b, c} : longest_opposite(a, b, c);
   const Vector out = dimension == 2 ? Vector{q[1] - p[1], p[0] - q[0], 0} : cross(q - p, r - p);
   const double length = std::sqrt(dot(out, out));
   return length > 0 ? -1 / length * out : Vector{};

@@ -18,6 +18,14 @@ inline Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// A triangle's corners turned round so that its longest side is opposite the first: the sides from there
+/// tell the normal best, as two long sides of a needle are parallel but for rounding.
+inline std::array<Vector, 3> longest_opposite(const Vector& a, const Vector& b, const Vector& c) {
+  const double ab = dot(b - a, b - a), bc = dot(c - b, c - b), ca = dot(a - c, a - c);
+  if (bc >= ab && bc >= ca) return {a, b, c};
+  return ca >= ab ? std::array{b, c, a} : std::array{c, a, b};
+}
+
 /// A position rounded to the lattice, in units of its spacing; below 2^51 in magnitude. Rounded coordinates
 /// are even, so that the middle between two of them is on the lattice as well.
 struct LatticePoint {

@@ -256,14 +256,17 @@ std::unique_ptr<Node> CellUnion::divide_layer(const Vector& normal, const Convex
 }
 
 /// Next to a division along a body's fragment, and with no other fragment of that body, a part lies wholly on
-/// that fragment's side.
+/// that fragment's side. A body so thin that both of its sides lie in the division is on neither.
 CellUnion::Places CellUnion::places_after(const Node& node, const std::vector<Fragment>& fragments,
                                           Places places, bool in_front) const {
-  for (const Fragment& f : node.in_plane) {
-    const Piece& piece = cell_.pieces[f.piece];
-    const bool before_it = (dot(piece.normal, node.plane.normal) < 0) == in_front;
-    places[piece.body] = before_it ? Place::outside : Place::inside;
-  }
+  const auto place = [&](const Fragment& f) {
+    const bool before_it = (dot(cell_.pieces[f.piece].normal, node.plane.normal) < 0) == in_front;
+    return before_it ? Place::outside : Place::inside;
+  };
+  const auto body = [&](const Fragment& f) { return cell_.pieces[f.piece].body; };
+  for (const Fragment& f : node.in_plane) places[body(f)] = place(f);
+  for (const Fragment& f : node.in_plane)
+    if (places[body(f)] != place(f)) places[body(f)] = Place::unknown;
   for (const Fragment& f : fragments) places[cell_.pieces[f.piece].body] = Place::unknown;
   return places;
 }
