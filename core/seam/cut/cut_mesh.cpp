@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "seam/cut/agree_on_faces.hpp"
 #include "seam/cut/cell_map.hpp"
 #include "seam/cut/clip.hpp"
 #include "seam/cut/coverage.hpp"
@@ -116,15 +117,17 @@ void CutMesh::cut(std::span<const Surface> bodies) {
     const int vertex = g.outline.sides[g.outline.first_side[c]].vertex[0];
     state_[c] = coverage.count()[vertex] > 0 ? CellState::body : CellState::wet;
   }
+  const auto convex = [&](int c) { return CellMap(*mesh_, c).affine(); };
   for (CutCell& c : g.cells) {
     if (dim == 2)
       find_wet_sides(input, coverage.count(), c);
     else if (coverage.overlap_in(g.outline, c))
-      unite_in_cell(input, coverage.windings(), CellMap(*mesh_, c.cell).affine(), c);
+      unite_in_cell(input, coverage.windings(), convex(c.cell), c);
     else
       find_wet_faces(input, coverage.count(), c);
     measure(g.outline, c);
   }
+  agree_on_faces(input, coverage.windings(), convex, g.cells, state_);
   settle_slivers(g.outline, g.cells, state_);
   name_surfaces(g.facets, g.cells);
   g.coverage = coverage.count();

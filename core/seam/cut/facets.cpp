@@ -236,6 +236,26 @@ void append_body(Facets& facets, const Border& border, const Surface& surface, i
 
 }  // namespace
 
+namespace {
+
+/// Vertices at one point of the lattice get one position, so that an edge between two of them is met in one
+/// place whichever facet it is looked at from. (In the plane their arrangement does that.)
+void share_positions(Facets& facets) {
+  std::map<LatticePoint, Vector> position;
+  std::vector<char> moved(facets.point.size(), 0);
+  for (std::size_t v = 0; v < facets.point.size(); ++v) {
+    const Vector& first = position.try_emplace(facets.point[v], facets.position[v]).first->second;
+    moved[v] = first == facets.position[v] ? 0 : 1;
+    facets.position[v] = first;
+  }
+  for (Facet& f : facets.list)
+    if (std::any_of(f.vertex.begin(), f.vertex.end(), [&](int v) { return moved[v] != 0; }))
+      f.normal = normal_into_body(3, facets.position[f.vertex[0]], facets.position[f.vertex[1]],
+                                  facets.position[f.vertex[2]]);
+}
+
+}  // namespace
+
 Facets collect_facets(const Outline& outline, const Border& border, std::span<const Surface> bodies) {
   Facets facets;
   facets.dimension = outline.dimension;
@@ -255,6 +275,7 @@ Facets collect_facets(const Outline& outline, const Border& border, std::span<co
   facets.origin = std::move(solids.origin);
   for (std::size_t b = 0; b < solids.surfaces.size(); ++b)
     append_body(facets, border, solids.surfaces[b], static_cast<int>(b));
+  if (facets.dimension == 3) share_positions(facets);
   return facets;
 }
 
