@@ -6,7 +6,7 @@
 
 using namespace seam_cli_test;
 
-TEST_CASE("formulas use balances by name; statistics say what a series does over time") {
+TEST_CASE("formulas use balances by name; statistics say what a series does over time", "[sanitized]") {
   const Folder folder;
   // The end goes out by steps of 0.02 to t = 0.5 and back by as much.
   const std::string file = folder.file(

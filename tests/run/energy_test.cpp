@@ -61,7 +61,7 @@ double most_after_ten_impacts(const std::string& in_time) {
 
 }  // namespace
 
-TEST_CASE("implicit Euler never gains energy") {
+TEST_CASE("implicit Euler never gains energy", "[sanitized]") {
   const Folder folder;
   const auto e = energies(folder, "1");
   REQUIRE(e.size() == 101);

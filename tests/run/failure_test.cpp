@@ -46,7 +46,7 @@ void check_table(const std::string& csv, std::size_t rows) {
 
 }  // namespace
 
-TEST_CASE("a mistake in a formula is told, and costs no number") {
+TEST_CASE("a mistake in a formula is told, and costs no number", "[sanitized]") {
   const Folder folder;
   for (const std::string& before : {std::string(), two_ranks}) {
     const Result result = run(folder, "r", "--set output.formulas.f=corner_z*2", beam, before);
@@ -128,8 +128,7 @@ TEST_CASE("a folder that vanishes during the run is told") {
   CHECK_THAT(process.output(), Contains("somebody has deleted the file, or its folder"));
 }
 
-TEST_CASE("what memory is lacking for is named, and other scenes are verified all the same",
-          "[unsanitized]") {
+TEST_CASE("what memory is lacking for is named, and other scenes are verified all the same") {
   const Folder folder;
   const std::string block = SEAM_SOURCE_DIR "/configs/solid/patch_2d.yaml";
   const std::string huge = folder.file(
@@ -147,7 +146,7 @@ TEST_CASE("what memory is lacking for is named, and other scenes are verified al
                                 Contains("1 passed, 1 failed"));
 }
 
-TEST_CASE("whatever a step throws, its run is recorded") {
+TEST_CASE("whatever a step throws, its run is recorded", "[sanitized]") {
   const Folder folder;
   for (const auto& [what, reason] :
        std::map<std::string, std::string>{{"exception", "the library below is out of sorts"},
@@ -186,7 +185,7 @@ TEST_CASE("a rank that dies takes the others with it, and the run goes on from i
   check_table(folder.read("r/series.csv"), 11);
 }
 
-TEST_CASE("events tell each step, and why some were refused") {
+TEST_CASE("events tell each step, and why some were refused", "[sanitized]") {
   const Folder folder;
   // From t = 0.6 on it is pushed through its own support, which no step survives.
   const std::string scene = folder.file(
@@ -237,7 +236,8 @@ TEST_CASE("series and events grow with each step") {
   CHECK(process.wait() == 0);
 }
 
-TEST_CASE("steps that do not advance the clock, and times that do not ascend, are refused in words") {
+TEST_CASE("steps that do not advance the clock, and times that do not ascend, are refused in words",
+          "[sanitized]") {
   const Folder folder;
   const std::string stuck = "--set time.start=1e10 time.end=1e10+1 time.step.initial=1e-8 ";
   const Result clock = run(folder, "r", stuck, beam, "timeout 60");

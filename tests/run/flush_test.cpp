@@ -8,6 +8,7 @@
 #include "series.hpp"
 
 using namespace seam_cli_test;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -184,4 +185,35 @@ TEST_CASE("A solid block that stands on the border of the fluid's mesh is presse
             CHECK(column(series, std::string("f.") + names[d]).back() ==
                   Approx(d == axis ? (high ? 3.0 : -3.0) : 0.0).margin(1e-9));
         }
+}
+
+TEST_CASE("what is hardly meant beside the border is warned of, what is meant is not") {
+  const auto said = [](std::string scene) {
+    const Folder folder;
+    return seam("run " + folder.file("block.yaml", scene) + " --no-picture --folder " +
+                (folder.path / "results").string())
+        .output;
+  };
+  const auto with = [](std::string scene, const std::string& what, const std::string& instead) {
+    const std::size_t at = scene.find(what);
+    REQUIRE(at != std::string::npos);
+    return scene.replace(at, what.size(), instead);
+  };
+  const std::string is_short = "short of the border of mesh 'box'",
+                    in_part = "covers a cell's side only in part",
+                    conditioned = "a body stands on boundary 'y_min' of field 'water', where 'velocity' is";
+  for (const int dimension : {2, 3}) {
+    for (const bool high : {false, true}) {
+      CAPTURE(dimension, high);
+      CHECK_THAT(said(pressed(dimension, 1, high, 1e-4)), Contains("0.0003 of a cell " + is_short));
+      // On the border, in the mesh, a tenth of a cell away.
+      for (const double shift : {0.0, 1e-10, -1e-4, 0.033})
+        CHECK_THAT(said(pressed(dimension, 1, high, shift)), !Contains("warning"));
+    }
+    const std::string on_it = pressed(dimension, 1, false, 0);
+    CHECK_THAT(said(with(on_it, "to: [1.3,", "to: [0.5,")), Contains(in_part));
+    CHECK_THAT(said(with(on_it, "to: [1.3,", "to: [" + std::string("0.66666666666666663,"))),
+               !Contains(in_part));
+    CHECK_THAT(said(with(on_it, "on: [x_max,", "on: [x_max, y_min,")), Contains(conditioned));
+  }
 }

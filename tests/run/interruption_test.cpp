@@ -59,7 +59,7 @@ const std::string two_ranks = "mpirun --oversubscribe -np 2 ";
 
 }  // namespace
 
-TEST_CASE("SIGUSR1 to mpirun lets all ranks finish the step", "[mpi][unsanitized]") {
+TEST_CASE("SIGUSR1 to mpirun lets all ranks finish the step", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(step_seconds));
   Process process(run(scene, folder.path / "r"), two_ranks, (folder.path / "log").string());
@@ -70,7 +70,7 @@ TEST_CASE("SIGUSR1 to mpirun lets all ranks finish the step", "[mpi][unsanitized
   check_interrupted(folder, scene);
 }
 
-TEST_CASE("SIGTERM to mpirun does when it leaves the ranks time", "[mpi][unsanitized]") {
+TEST_CASE("SIGTERM to mpirun does when it leaves the ranks time", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(step_seconds));
   Process process(run(scene, folder.path / "r"), two_ranks + "--mca odls_base_sigkill_timeout 8",
@@ -82,7 +82,7 @@ TEST_CASE("SIGTERM to mpirun does when it leaves the ranks time", "[mpi][unsanit
   check_interrupted(folder, scene, 3);
 }
 
-TEST_CASE("SIGTERM to a single rank ends all of them", "[mpi][unsanitized]") {
+TEST_CASE("SIGTERM to a single rank ends all of them", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(step_seconds));
   Process process(run(scene, folder.path / "r"), two_ranks, (folder.path / "log").string());
@@ -97,7 +97,7 @@ TEST_CASE("SIGTERM to a single rank ends all of them", "[mpi][unsanitized]") {
   check_interrupted(folder, scene);
 }
 
-TEST_CASE("no step is begun when the time limit is over", "[mpi][unsanitized]") {
+TEST_CASE("no step is begun when the time limit is over", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(step_seconds));
   const Result result = seam(run(scene, folder.path / "r", "--time-limit 3s"), two_ranks);
@@ -106,7 +106,7 @@ TEST_CASE("no step is begun when the time limit is over", "[mpi][unsanitized]") 
   check_interrupted(folder, scene);
 }
 
-TEST_CASE("a second signal ends the run at once", "[unsanitized]") {
+TEST_CASE("a second signal ends the run at once") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(60));
   Process process(run(scene, folder.path / "r"), "", (folder.path / "log").string());
@@ -125,7 +125,7 @@ TEST_CASE("a second signal ends the run at once", "[unsanitized]") {
   CHECK_THAT(refused.output, Contains("its process was killed") && Contains("--resume"));
 }
 
-TEST_CASE("verify and a study stop with the run that a signal interrupts", "[unsanitized]") {
+TEST_CASE("verify and a study stop with the run that a signal interrupts") {
   const Folder folder;
   const std::string scene =
       folder.file("slow.yaml", slow(1) + "study: {vary: {functions.slow.load: [1, 2]}, measure: tip.x}\n");
@@ -150,7 +150,7 @@ TEST_CASE("verify and a study stop with the run that a signal interrupts", "[uns
   CHECK_FALSE(std::filesystem::exists(folder.path / "study/case002"));
 }
 
-TEST_CASE("durations are read in words, and nothing else is", "[unsanitized]") {
+TEST_CASE("durations are read in words, and nothing else is") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(0));
   for (const std::string good : {"1h30m", "90m", "2d", "5400", "0.5h"})
@@ -162,7 +162,7 @@ TEST_CASE("durations are read in words, and nothing else is", "[unsanitized]") {
   }
 }
 
-TEST_CASE("restart points are written by the clock", "[unsanitized]") {
+TEST_CASE("restart points are written by the clock") {
   const Folder folder;
   const std::string scene = folder.file("slow.yaml", slow(0.3));
   REQUIRE(seam(run(scene, folder.path / "r", "--set output.restart.minutes=0.01 output.restart.keep=100"),

@@ -37,7 +37,7 @@ TEST_CASE("factorisations kept over changing spaces lead to the same flow", "[st
   CHECK(difference(series(folder, "fresh"), series(folder, "kept")) < 1e-6);
 }
 
-TEST_CASE("a step that uncovers more than a layer of cells is halved") {
+TEST_CASE("a step that uncovers more than a layer of cells is halved", "[sanitized]") {
   const Folder folder;
   REQUIRE(
       seam(run(folder, "long", "--set time.step.initial=0.6 --set meshes.channel.grid.cells=[60,30]")).code ==

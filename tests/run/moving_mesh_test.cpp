@@ -48,7 +48,8 @@ TEST_CASE("errors in a background and in a patch that moves through it are of se
         0.95);
 }
 
-TEST_CASE("a body with a fitted mesh moves alike on any number of ranks, and after a restart") {
+TEST_CASE("a body with a fitted mesh moves alike on any number of ranks, and after a restart",
+          "[sanitized]") {
   const Folder folder;
   const auto run = [&](const std::string& where, const std::string& more, const std::string& before = "") {
     const Result result = seam(fitted + more + " --folder " + (folder.path / where).string(), before);

@@ -126,6 +126,6 @@ TEST_CASE("what is written of a cut field fills its part of the plane, with its 
   check_runs(2, 2, 2 - disc(0.3) - disc(0.04));
 }
 
-TEST_CASE("what is written of a cut field fills its part of space, with its values") {
+TEST_CASE("what is written of a cut field fills its part of space, with its values", "[sanitized]") {
   check_runs(3, 1, 2 - ball(0.3) - ball(0.06));
 }

@@ -138,7 +138,7 @@ TEST_CASE("a small part of the fluid is kept where it reaches an open boundary")
   for (const double volume : dropped(corner("x_min"))) CHECK(volume == Approx(0.05 * 0.05).epsilon(1e-10));
 }
 
-TEST_CASE("a run that is resumed leaves out the pocket that it had left out") {
+TEST_CASE("a run that is resumed leaves out the pocket that it had left out", "[sanitized]") {
   // It grows beyond two cells while it is closed: without a memory it would be kept then, with no state.
   const Folder folder;
   const std::string scene = folder.file("scene.yaml", notch(0.02, 0.2, "0.03*t", "0.03"));

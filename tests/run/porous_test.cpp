@@ -33,7 +33,7 @@ TEST_CASE("a porous body loses in each step what flows out of it, at any strain"
     CHECK(std::abs(volume[k - 1] - volume[k] - (time[k] - time[k - 1]) * outflow[k]) < 1e-9 * volume.front());
 }
 
-TEST_CASE("walls of a porous body may be made tight weakly") {
+TEST_CASE("walls of a porous body may be made tight weakly", "[sanitized]") {
   const Folder first, second;
   const std::string
       coarse = "--set time.end=2 --set checks=[] ",
@@ -66,7 +66,7 @@ TEST_CASE("two conditions on what flows through one boundary are refused") {
   CHECK_THAT(run.output, Catch::Contains("found `seepage` and `velocity` on the same boundary"));
 }
 
-TEST_CASE("a filter that bends in a flow stores in each step what seeps into it") {
+TEST_CASE("a filter that bends in a flow stores in each step what seeps into it", "[sanitized]") {
   const Folder folder;
   const std::string series = series_of("filter", folder);
   const std::vector<double> time = column(series, "time"), volume = column(series, "filter.fluid_volume"),

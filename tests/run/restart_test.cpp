@@ -21,7 +21,7 @@ std::string run(const Folder& folder, const std::string& where, const std::strin
 
 }  // namespace
 
-TEST_CASE("a restarted run equals the uninterrupted one to the bit, on one rank") {
+TEST_CASE("a restarted run equals the uninterrupted one to the bit, on one rank", "[sanitized]") {
   const Folder folder;
   REQUIRE(seam(run(folder, "whole")).code == 0);
   REQUIRE(seam(run(folder, "parts", "--stop-after 12")).code == 0);
@@ -53,7 +53,7 @@ TEST_CASE("a run that is killed at any moment loses nothing but the last point",
   CHECK(folder.read("killed/series.csv") == folder.read("whole/series.csv"));
 }
 
-TEST_CASE("a damaged restart point is passed over") {
+TEST_CASE("a damaged restart point is passed over", "[sanitized]") {
   const Folder folder;
   REQUIRE(seam(run(folder, "whole")).code == 0);
   REQUIRE(seam(run(folder, "parts", "--stop-after 22")).code == 0);

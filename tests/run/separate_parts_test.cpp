@@ -283,7 +283,7 @@ TEST_CASE("a plate with free edges moves through the mesh in balance, on all num
     }
 }
 
-TEST_CASE("a run with parts told apart continues to the bit") {
+TEST_CASE("a run with parts told apart continues to the bit", "[sanitized]") {
   const Folder folder;
   const std::string file = folder.file("scene.yaml", streams(0.4, 0.06));
   const auto seam_run = [&](const std::string& where, const std::string& more) {

@@ -101,7 +101,8 @@ output: {{fields: false, probes: {{turned: {{field: block, quantity: rotation}}}
 
 }  // namespace
 
-TEST_CASE("of a pair of surfaces that look at each other one stress counts, not each its own") {
+TEST_CASE("of a pair of surfaces that look at each other one stress counts, not each its own",
+          "[sanitized]") {
   for (const std::string same : {"own", "other"}) {
     const Run run(pressed(same, same));
     CHECK(run.done.code == 2);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "seam/base/communicator.hpp"
@@ -41,6 +42,23 @@ class Border {
   std::vector<Vector> lay_flush(Facets& facets, int first_facet) const;
 
   [[nodiscard]] const std::vector<Side>& sides() const { return sides_; }
+
+  /// What is legal beside the border and surely meant otherwise, of bodies behind it.
+  struct Doubts {
+    struct Gap {
+      Vector at{};
+      double width = 0;  ///< the largest, in cells
+    };
+    /// Facets that end short of the border, by more than what is flush and by less than a hundredth of a
+    /// cell: the border there is a border.
+    std::optional<Gap> short_of_it;
+    /// A corner of a side that flush facets cover in part: what they leave of it is a border.
+    std::optional<Vector> covered_partly;
+    /// [side]: share that flush facets cover.
+    std::vector<double> covered;
+  };
+  /// The same on all ranks, as they have all facets and all sides.
+  [[nodiscard]] Doubts doubts(const Facets& facets) const;
 
  private:
   struct Plane;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/cut/cut_mesh.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -172,6 +174,49 @@ const CutCell& CutMesh::Geometry::at(int cell, int part) const {
 const std::vector<CellPart>& CutMesh::Geometry::parts_of(int cell) const {
   static const std::vector<CellPart> none;
   return parts.empty() || index[cell] < 0 ? none : parts[index[cell]];
+}
+
+std::vector<CutMesh::Doubt> CutMesh::doubts() const {
+  std::vector<Doubt> result;
+  const Border::Doubts found = geometry_->border.doubts(geometry_->facets);
+  const auto at = [&](const Vector& place) {
+    return fmt::format("({:.6g})", fmt::join(place.begin(), place.begin() + mesh_->dimension(), ", "));
+  };
+  if (const auto& gap = found.short_of_it)
+    result.push_back(
+        {"short of the border",
+         fmt::format(
+             "a body ends {:.3g} of a cell short of the border of mesh '{}', near {}: the border there is "
+             "a border with the conditions that it has, and no interface; let the body end on it, to "
+             "{:.0e} of a cell, or in the mesh",
+             gap->width, mesh_->name(), at(gap->at), Border::flush_reach)});
+  if (const auto& place = found.covered_partly)
+    result.push_back(
+        {"border covered partly",
+         fmt::format("a body that stands on the border of mesh '{}' covers a cell's side only in part, "
+                     "near {}: what it leaves of it is a border with the conditions that it has; let "
+                     "the body end where a cell does if that is not meant",
+                     mesh_->name(), at(*place))});
+  return result;
+}
+
+std::vector<CellFace> CutMesh::covered_faces() const {
+  const std::vector<double> covered = geometry_->border.doubts(geometry_->facets).covered;
+  const std::vector<Border::Side>& sides = geometry_->border.sides();
+  const Outline& outline = geometry_->outline;
+  std::vector<CellFace> result;
+  for (int c = 0; c < mesh_->owned_cells(); ++c)
+    for (int s = outline.first_side[c]; s < outline.first_side[c + 1]; ++s) {
+      const Side& side = outline.sides[s];
+      if (outline.neighbour[c][side.face] >= 0) continue;
+      std::array<Vector, 3> corner{};
+      for (int k = 0; k < 3; ++k)
+        corner[k] = outline.position[side.vertex[std::min(k, outline.dimension - 1)]];
+      const auto at = std::ranges::lower_bound(sides, corner, {}, &Border::Side::corner);  // in this order
+      if (at != sides.end() && at->corner == corner && covered[at - sides.begin()] > 0)
+        result.push_back({c, side.face});
+    }
+  return result;
 }
 
 double CutMesh::wet_volume(int cell, int part) const { return geometry_->at(cell, part).wet_volume; }

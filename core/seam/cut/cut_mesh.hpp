@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -86,6 +87,17 @@ class CutMesh {
   [[nodiscard]] std::vector<std::pair<int, int>> joined(int cell, int face) const;
   /// The local cell behind a face, -1 where there is none.
   [[nodiscard]] int neighbour(int cell, int face) const;
+
+  /// Something of the last cut that is legal and surely meant otherwise.
+  struct Doubt {
+    std::string kind;     ///< the same for all that are alike
+    std::string message;  ///< what, where, and what to do
+  };
+  /// Of bodies beside the mesh's border; the same on all ranks.
+  [[nodiscard]] std::vector<Doubt> doubts() const;
+  /// Faces of owned cells on the mesh's border that a body behind it covers, wholly or in part: what is there
+  /// is an interface.
+  [[nodiscard]] std::vector<CellFace> covered_faces() const;
 
   [[nodiscard]] const Mesh& mesh() const { return *mesh_; }
   /// Of a local cell.

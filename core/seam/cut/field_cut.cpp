@@ -50,6 +50,7 @@ bool FieldCut::update(double time) {
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
   dropped_volume_ = mesh_.drop(decides ? decide() : follow_decision());
+  if (decides) warn_of_doubts();
   if (decides) area_.clear();
   for (const int c : mesh_.cut_cells()) area_.try_emplace(c, mesh_.interface_area(c));
   for (int c = 0; c < field_->mesh().cells(); ++c)
@@ -92,22 +93,27 @@ void FieldCut::choose_sets() {
 }
 
 /// Says it once in a run, on one rank.
-void FieldCut::warn(const std::string& message) {
-  if (warned_.insert(message).second && field_->mesh().communicator().rank() == 0)
+void FieldCut::warn(const std::string& kind, const std::string& message) {
+  if (warned_.insert(kind).second && field_->mesh().communicator().rank() == 0)
     fmt::print(stderr, "warning: field '{}': {}\n", field_->name(), message);
+}
+
+void FieldCut::warn_of_doubts() {
+  for (const CutMesh::Doubt& doubt : mesh_.doubts()) warn(doubt.kind, doubt.message);
 }
 
 void FieldCut::warn_of_shared_sets() {
   const Communicator& communicator = field_->mesh().communicator();
   std::vector<std::array<double, 3>> where = sets_->shared();
-  if (!communicator.any(!where.empty())) return;
-  if (!warned_.insert("shared").second) return;
+  if (!communicator.any(!where.empty()) || warned_.contains("shared")) return;
   where = communicator.gather_all(where);
   const auto first = *std::min_element(where.begin(), where.end());
-  warn(fmt::format(
-      "bodies part it into more than {} parts around one node, first near ({:.6g}, {:.6g}, {:.6g}); some "
-      "of them share unknowns there, so that they leak into each other; use smaller cells there",
-      field_->sets(), first[0], first[1], first[2]));
+  warn(
+      "shared",
+      fmt::format(
+          "bodies part it into more than {} parts around one node, first near ({:.6g}, {:.6g}, {:.6g}); some "
+          "of them share unknowns there, so that they leak into each other; use smaller cells there",
+          field_->sets(), first[0], first[1], first[2]));
 }
 
 /// Parts of a cell are recognised by where they lie, as long as a body moves by less than half a cell.

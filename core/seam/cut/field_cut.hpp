@@ -83,7 +83,8 @@ class FieldCut {
   [[nodiscard]] bool states_match() const;
   void choose_sets();
   void warn_of_shared_sets();
-  void warn(const std::string& message);
+  void warn_of_doubts();
+  void warn(const std::string& kind, const std::string& message);
   void check_motion(const PartLayout& before) const;
   void accept_states(bool at_start);
   [[nodiscard]] std::vector<char> open_parts(const WetParts& parts) const;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "seam/solve/problem.hpp"
 
@@ -51,11 +52,32 @@ std::vector<Conflict> conflicts_of(const FieldEntry& entry, double time) {
   return found;
 }
 
+/// Conditions on sides of the mesh that a body covers, where it has an interface.
+void warn_of_covered(const FieldEntry& entry, const Communicator& communicator,
+                     std::vector<Diagnostic>& warnings) {
+  if (!entry.cut) return;
+  const std::vector<CellFace> covered = entry.cut->mesh().covered_faces();
+  if (!communicator.any(!covered.empty())) return;
+  std::set<std::string> named;
+  for (const PrescribedCondition& condition : entry.conditions) {
+    const std::vector<CellFace>& faces = entry.mesh->boundary(condition.boundary);
+    const bool meets = std::ranges::any_of(
+        faces, [&](const CellFace& f) { return std::ranges::find(covered, f) != covered.end(); });
+    if (!communicator.any(meets) || !named.insert(condition.boundary).second) continue;
+    warnings.push_back(
+        {Diagnostic::Severity::warning, condition.where,
+         fmt::format("a body stands on boundary '{}' of field '{}', where '{}' is prescribed: the body's "
+                     "interface is there as well, and what is prescribed wins; leave one of them out",
+                     condition.boundary, entry.name, condition.unknown)});
+  }
+}
+
 }  // namespace
 
 std::vector<Diagnostic> Problem::find_conflicts(double time) const {
   std::vector<Diagnostic> warnings;
   for (const FieldEntry& entry : fields_) {
+    warn_of_covered(entry, communicator_, warnings);
     std::vector<Conflict> all = communicator_.gather_all(conflicts_of(entry, time));
     const auto pair = [](const Conflict& c) { return std::pair(c.first, c.second); };
     std::stable_sort(all.begin(), all.end(),
