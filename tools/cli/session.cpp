@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -35,6 +36,15 @@ bool all_ranks_come() {
   return false;
 }
 
+/// One thread a rank, unless the environment says otherwise: BLAS threads would fight over the cores.
+/// OpenBLAS has read its variables by now, hence its function, where it is the BLAS that is used.
+void use_one_blas_thread() {
+  if (std::getenv("OPENBLAS_NUM_THREADS") || std::getenv("OMP_NUM_THREADS")) return;
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);  // for the programs that are started
+  using SetThreads = void (*)(int);
+  if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
+}
+
 }  // namespace
 
 std::string agree_on_exception() {
@@ -51,8 +61,7 @@ std::string agree_on_exception() {
 }
 
 int run_on_all_ranks(const std::function<int(bool)>& action) {
-  // One thread a rank: BLAS threads would fight over the cores.
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  use_one_blas_thread();
   MPI_Init(nullptr, nullptr);
   MPI_Comm_dup(MPI_COMM_WORLD, &failures);
   const bool is_root = Communicator().rank() == 0;

@@ -117,12 +117,18 @@ void find_wet_sides(const ClipInput& input, const std::vector<int>& coverage, Cu
     int covered = coverage[side.vertex[0]];
     Vector from = input.outline.position[side.vertex[0]];
     const Vector normal = side_normal(input.outline, side);
+    const Vector along{-normal[1], normal[0], 0};
     const auto add = [&](const Vector& to) {
       if (covered != 0) return;
-      cell.wet.push_back(
-          {side.face, normal, {from, to, to}, 1.0, std::hypot(to[0] - from[0], to[1] - from[1])});
+      cell.wet.push_back({side.face, normal, {from, to, to}, 1.0, dot(to - from, along)});
     };
     for (; crossing != cell.crossings.end() && crossing->place == s; ++crossing) {
+      // Bodies are united: only rounding can have two crossings in a row go the same way, of facets that run
+      // along the side.
+      const int step = covered == 0 ? 1 : -1;
+      const auto next = std::find_if(crossing, cell.crossings.end(),
+                                     [&](const Crossing& c) { return c.place == s && c.step == step; });
+      if (next != cell.crossings.end()) std::iter_swap(crossing, next);
       add(crossing->position);
       covered += crossing->step;
       from = crossing->position;
