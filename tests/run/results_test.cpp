@@ -8,6 +8,7 @@
 #include "series.hpp"
 
 using namespace seam_cli_test;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -85,4 +86,46 @@ TEST_CASE("iterations are those of steps that were taken; rejected steps are cou
   CHECK(results["steps.rejected"] == rejected);
   CHECK(results["newton.iterations.median"] >= 1);
   CHECK(results["newton.iterations.most"] >= results["newton.iterations.median"]);
+}
+
+TEST_CASE("a picture that cannot be made is told, and the run is not a good one") {
+  const Folder folder;
+  const auto with = [&](const std::string& quantity) {
+    const std::string scene = folder.file(
+        "scene.yaml", drawn("output: {picture: {field: block, quantity: " + quantity + ", width: 200}}\n"));
+    return seam("run " + scene + " --overwrite --folder " + (folder.path / "out").string());
+  };
+  const auto bad = with("warmth");
+  CAPTURE(bad.output);
+  CHECK(bad.code == 1);
+  CHECK_THAT(bad.output, Contains("the picture that the scene asks for was not made"));
+  const auto good = with("displacement");
+  CAPTURE(good.output);
+  CHECK(good.code == 0);
+}
+
+TEST_CASE("a reaction to another unknown than the first is refused") {
+  const Folder folder;
+  const auto result = run(folder, R"yaml(
+title: A porous block
+dimension: 2
+plugins: [solid, poroelasticity]
+meshes:
+  block: {grid: {from: [0, 0], to: [1, 1], cells: [2, 2]}}
+fields:
+  block:
+    type: porous_solid
+    mesh: block
+    material: {type: neo_hookean, young: 100, poisson: 0}
+    viscosity: 1
+    porosity: {initial: 0.5}
+    permeability: [1]
+    boundary: [{on: y_min, displacement: [0, 0], velocity: [0, 0]}, {on: y_max, velocity: [null, 0]}]
+output: {fields: false, probes: {f: {field: block, on: y_max, quantity: reaction}}}
+)yaml");
+  CAPTURE(result.output);
+  CHECK(result.code == 2);
+  CHECK_THAT(result.output,
+             Contains("a reaction is what holds the first unknown of a field, here 'displacement'"));
+  CHECK_THAT(result.output, Contains("only 'velocity' is prescribed"));
 }

@@ -88,7 +88,7 @@ Schema picture_schema() {
   schema.choice("component", "of a vector quantity; default its magnitude", {"x", "y", "z", "magnitude"})
       .optional();
   schema.number("deformed", "scale of the displacement that moves the mesh; 0 for none").otherwise("1");
-  schema.integer("width", "pixels").at_least(16).at_most(16384).otherwise("1200");
+  schema.integer("width", "pixels").at_least(200).at_most(10000).otherwise("1200");
   return schema;
 }
 
