@@ -78,6 +78,10 @@ class CellUnion {
   [[nodiscard]] bool is_wide(const Polygon& polygon) const;
   void add_part(const Convex& part);
   std::unique_ptr<Node> divide(const Convex& part, std::vector<Fragment> fragments, const Places& places);
+  /// Of the cell's size: in the middle of a thicker part the lattice tells what is inside; a thinner one lies
+  /// where its divisions say.
+  static constexpr double thick = 1e-11;
+  [[nodiscard]] double thickness(const Convex& part) const;
   [[nodiscard]] bool is_wet_part(const Convex& part, const Places& places) const;
   std::unique_ptr<Node> divide_at(const Node& node, const Convex& part, std::vector<Fragment> fragments,
                                   const Places& before, bool in_front);
@@ -271,10 +275,21 @@ CellUnion::Places CellUnion::places_after(const Node& node, const std::vector<Fr
   return places;
 }
 
+/// Of a convex part, in sizes of the cell.
+double CellUnion::thickness(const Convex& part) const {
+  double area = 0;
+  for (const Convex::Face& face : part.faces) {
+    const Vector a = vector_area(face.corner);
+    area += std::sqrt(dot(a, a));
+  }
+  return area > 0 ? 2 * volume(part) / area / std::cbrt(cell_volume_) : 0;
+}
+
 bool CellUnion::is_wet_part(const Convex& part, const Places& places) const {
   const LatticePoint middle = input_.facets.lattice.round(centre(part));
+  const bool is_thin = thickness(part) < thick;
   for (int body = 0; body < static_cast<int>(windings_.size()); ++body) {
-    if (places[body] != Place::unknown && !overlaps_itself_[body]) {
+    if (is_thin && places[body] != Place::unknown && !overlaps_itself_[body]) {
       if (places[body] == Place::inside) return false;
       continue;
     }
