@@ -10,6 +10,7 @@ same to the bit; with factors that are kept, and on several ranks, whose sums co
 --tolerance of the largest value of each column, or of the vector that it is a component of.
 """
 import argparse
+import difflib
 import json
 import os
 import random
@@ -98,6 +99,15 @@ def deviation(one, other):
     return max([0.0] + [abs(x - y) / size[v] for v, finite in columns for x, y in finite if size[v] > 0])
 
 
+def difference(one, other):
+    """The first lines that differ, of texts."""
+    try:
+        lines = difflib.unified_diff(one.read_text().splitlines(), other.read_text().splitlines(), lineterm="", n=0)
+    except UnicodeDecodeError:
+        return ""
+    return ":\n" + "\n".join(list(lines)[2:12])
+
+
 def same_files(whole, parts):
     """Compares all files of results but those that tell of the run itself."""
     own = {"run.json", "summary.json", "events.jsonl"}
@@ -111,7 +121,7 @@ def same_files(whole, parts):
     compared = [f for f in listing(whole) if not f.endswith(".restart")]
     for name in compared:
         if (whole / name).read_bytes() != (parts / name).read_bytes():
-            raise Wrong(f"{name} differs")
+            raise Wrong(f"{name} differs{difference(whole / name, parts / name)}")
     return len(compared)
 
 

@@ -95,7 +95,7 @@ class CellUnion {
   void add_leaf(const Node& leaf, const std::vector<const Node*>& ancestors);
   void add_wet(const Polygon& polygon, const Side& side);
   void add_interface(const Polygon& polygon, const Node& node);
-  void add_piece(const Polygon& polygon, const Piece& source, double scale);
+  void add_piece(const Polygon& polygon, const Piece& source, const Vector& into, double scale);
   static void against_body(const Node& node, const Polygon& polygon, std::vector<Polygon>& parts);
   [[nodiscard]] Plane plane_of(const Fragment& fragment) const;
 
@@ -366,7 +366,9 @@ void CellUnion::add_interface(const Polygon& polygon, const Node& node) {
   const double whole = std::sqrt(dot(area, area));
   if (whole == 0) return;
   const Vector out = 1 / whole * area;
-  double covered = 0;
+  const Vector into = dot(node.plane.normal, out) > 0 ? node.plane.normal : -1 * node.plane.normal;
+  double covered = 0, most = 0;
+  int largest = node.in_plane.front().piece;
   std::vector<std::pair<Polygon, int>> parts;
   for (const Fragment& f : node.in_plane) {
     const Vector normal = cell_.pieces[f.piece].normal;
@@ -375,15 +377,23 @@ void CellUnion::add_interface(const Polygon& polygon, const Node& node) {
     const double share = dot(vector_area(common), out);
     if (share <= 1e-14 * whole) continue;
     covered += share;
+    if (share > most) {
+      most = share;
+      largest = f.piece;
+    }
     parts.emplace_back(common, f.piece);
   }
-  // Coinciding facets of two bodies share what they cover.
-  for (const auto& [part, piece] : parts) add_piece(part, cell_.pieces[piece], whole / covered);
-  if (parts.empty()) add_piece(polygon, cell_.pieces[node.in_plane.front().piece], 1.0);
+  // Coinciding facets of two bodies share what they cover. Of next to nothing rounding is the larger part.
+  if (covered < 0.5 * whole)
+    add_piece(polygon, cell_.pieces[largest], into, 1.0);
+  else
+    for (const auto& [part, piece] : parts) add_piece(part, cell_.pieces[piece], into, whole / covered);
 }
 
-void CellUnion::add_piece(const Polygon& polygon, const Piece& source, double scale) {
+/// @param into the body: narrow facets in the plane of a wide one may point elsewhere
+void CellUnion::add_piece(const Polygon& polygon, const Piece& source, const Vector& into, double scale) {
   Piece piece = source;
+  piece.normal = into;
   piece.first = static_cast<int>(points_.size());
   piece.count = static_cast<int>(polygon.size());
   piece.scale = scale;
