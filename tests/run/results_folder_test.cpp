@@ -110,6 +110,15 @@ TEST_CASE("a resumed run goes on with its own run, of the same scene") {
   CHECK(folder.read("r/series.csv") == folder.read("whole/series.csv"));
 }
 
+TEST_CASE("what a killed run had removed, but not noted yet, is not listed after it is resumed") {
+  const Folder folder;
+  REQUIRE(run(folder, "r", "--stop-after 12").code == 0);
+  const std::string list = folder.read("r/manifest.txt");
+  static_cast<void>(folder.file("r/manifest.txt", list + "2 restart/00000002.restart\n"));
+  REQUIRE(run(folder, "r", "--resume --stop-after 14").code == 0);
+  CHECK_THAT(folder.read("r/manifest.txt"), !Contains("00000002.restart"));
+}
+
 TEST_CASE("a changed scene goes on when told so, and what was changed is kept") {
   const Folder folder;
   REQUIRE(run(folder, "r", "--stop-after 10").code == 0);

@@ -294,7 +294,8 @@ void ResultsFolder::begin(std::optional<long> resumed_at) {
 
 void ResultsFolder::clear(std::optional<long> resumed_at) {
   for (auto entry = files_.begin(); entry != files_.end();) {
-    if (resumed_at && entry->second <= *resumed_at) {
+    // What is not there was removed when the process was killed, before that could be noted.
+    if (resumed_at && entry->second <= *resumed_at && is_there(path_ / entry->first)) {
       ++entry;
       continue;
     }
