@@ -10,7 +10,6 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "cut_stress/clipping.hpp"
 #include "cut_stress/scenes.hpp"
@@ -32,7 +31,7 @@ struct Options {
   unsigned long seed = 1;
   int exact_in_space = 10;  ///< of so many configurations one is clipped, all are tested by identities
   int rational = 1000;      ///< of so many clipped ones one is clipped in rational arithmetic, too
-  std::optional<long> only_plane, only_space;
+  std::vector<long> only_plane, only_space;  ///< these alone where there are any, all of them clipped
 };
 
 /// A mesh of the unit square or cube, or of where an affine map puts it.
@@ -223,7 +222,7 @@ class Stress {
       for (Surface& s : scene_.bodies) s = moved(s, bed.body_placement);
     bed_ = &bed;
     index_ = index;
-    if (options_.only_plane || options_.only_space) print_bodies();
+    if (is_chosen()) print_bodies();
     tally_ = &tallies_[scene_.kind];
     by_mesh_[bed.name] += 1;
     ++tally_->scenes;
@@ -233,7 +232,7 @@ class Stress {
       check_identities();
       check_neighbours();
       check_ranks();
-      const bool clipped = dim_ == 2 || index % options_.exact_in_space == 0 || options_.only_space;
+      const bool clipped = dim_ == 2 || index % options_.exact_in_space == 0 || is_chosen();
       if (clipped) check_volumes();
       if (scene_.bodies.size() == 1 && encloses_something() && (!clipped || index % 4 == 0))
         check_complement();
@@ -271,6 +270,9 @@ class Stress {
   }
 
  private:
+  [[nodiscard]] bool is_chosen() const {
+    return !(dim_ == 2 ? options_.only_plane : options_.only_space).empty();
+  }
   void print_bodies() const {
     fmt::print("{} on {}, cells of 1/{}\n", scene_.kind, bed_->name, bed_->n);
     for (const Surface& s : scene_.bodies) {
@@ -379,9 +381,11 @@ class Stress {
         int back = 0;
         while (cut.neighbour(other, back) != c) ++back;
         const int global = bed_->mesh.global_cell(c);
+        const double whole = bed_->face_area(global, f);
+        check(tally_->faces, wet_face(c, f) / whole - 1, rounding, "more wet than the whole face", global);
         // Where next to nothing of a neighbour is cut off, that one is taken for whole.
         const double most = cut.state(other) == CellState::wet ? 2 * most_per_facet : rounding;
-        const double off = std::abs(wet_face(c, f) - wet_face(other, back)) / bed_->face_area(global, f);
+        const double off = std::abs(wet_face(c, f) - wet_face(other, back)) / whole;
         check(tally_->faces, off, most, "faces of neighbours", global);
       }
   }
@@ -456,10 +460,9 @@ class Stress {
 bool run(const Options& options, int dim) {
   const auto start = std::chrono::steady_clock::now();
   Stress stress(options, dim);
-  const std::optional<long>& only = dim == 2 ? options.only_plane : options.only_space;
-  const bool other = dim == 2 ? options.only_space.has_value() : options.only_plane.has_value();
-  if (only) stress.run(*only);
-  for (long k = 0; k < (dim == 2 ? options.plane : options.space) && !only && !other; ++k) stress.run(k);
+  for (const long k : dim == 2 ? options.only_plane : options.only_space) stress.run(k);
+  const bool are_chosen = !options.only_plane.empty() || !options.only_space.empty();
+  for (long k = 0; k < (dim == 2 ? options.plane : options.space) && !are_chosen; ++k) stress.run(k);
   return stress.report(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
@@ -475,9 +478,9 @@ Options read(int count, char** words) {
     else if (std::strcmp(words[k], "--rational") == 0)
       options.rational = static_cast<int>(std::max(2L, value()));
     else if (std::strcmp(words[k], "--only-plane") == 0)
-      options.only_plane = value();
+      options.only_plane.push_back(value());
     else if (std::strcmp(words[k], "--only-space") == 0)
-      options.only_space = value();
+      options.only_space.push_back(value());
     else
       (place++ == 0 ? options.plane : options.space) = std::atol(words[k]);
   }
@@ -486,7 +489,8 @@ Options read(int count, char** words) {
 
 }  // namespace
 
-/// cut_stress [PLANE [SPACE]] [--seed N] [--clip-in-space N] [--rational N] [--only-plane K] [--only-space K]
+/// cut_stress [PLANE [SPACE]] [--seed N] [--clip-in-space N] [--rational N] [--only-plane K]... [--only-space
+/// K]...
 int main(int count, char** words) {
   MPI_Init(&count, &words);
   const Options options = read(count, words);
