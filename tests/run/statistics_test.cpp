@@ -27,7 +27,7 @@ time: {end: 1, step: {initial: 0.1}}
 output:
   fields: false
   probes: {tip: {field: block, at: [1, 0.5], quantity: displacement}}
-  formulas: {change: block_volume - 1 + t, speed: "tip_x/max(t, 1e-9)", push: "tip_x > 0.03 && tip_x < 0.15 ? 1 : 0"}
+  formulas: {change: block_volume - 1 + t, speed: "t > 0 ? tip_x/t : 0", push: "tip_x > 0.03 && tip_x < 0.15 ? 1 : 0"}
   statistics:
     bend: {of: tip.x, what: curvature}
     bend_before: {of: tip.x, what: curvature, to: 0.61}
