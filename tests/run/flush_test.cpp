@@ -188,7 +188,7 @@ TEST_CASE("A solid block that stands on the border of the fluid's mesh is presse
 }
 
 TEST_CASE("what is hardly meant beside the border is warned of, what is meant is not") {
-  const auto said = [](std::string scene) {
+  const auto said = [](const std::string& scene) {
     const Folder folder;
     return seam("run " + folder.file("block.yaml", scene) + " --no-picture --folder " +
                 (folder.path / "results").string())
