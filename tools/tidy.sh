@@ -2,12 +2,12 @@
 # clang-tidy on what changed; called by test.sh.
 #   tools/tidy.sh BUILD          files that differ from the main branch, or from the last commit on it
 #   tools/tidy.sh BUILD --all    all files
-# Without git all files count as changed. A run over all stops after SEAM_TIDY_SECONDS (default 400) and says what it left.
+# Without git all files count as changed. A run over all stops after SEAM_TIDY_SECONDS (default 300) and says what it left.
 set -uo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$seam_root" || exit 1
 build=$(realpath -m "${1:-$seam_build}")
-budget=${SEAM_TIDY_SECONDS:-400}
+budget=${SEAM_TIDY_SECONDS:-300}
 
 # The folder may belong to another user than the one who runs this.
 git() { command git -c safe.directory='*' "$@"; }
