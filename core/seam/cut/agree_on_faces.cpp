@@ -12,7 +12,7 @@
 namespace seam::cutting {
 namespace {
 
-/// Of a face's area: less is rounding.
+/// In squares of the cell's size: less of a face is rounding.
 constexpr double negligible = 1e-13;
 /// Of a cell's size: facets that close to a face lie in it.
 constexpr double flush = 1e-9;
@@ -32,12 +32,6 @@ void append_rest(Polygon polygon, const Polygon& other, const Vector& normal, st
 bool in_one_plane(const WetPart& a, const WetPart& b, double size) {
   return std::abs(dot(a.normal, b.normal)) > 1 - flush &&
          std::abs(dot(a.normal, b.corner[0] - a.corner[0])) < flush * size;
-}
-
-/// Corners counter-clockwise seen along a normal.
-Polygon turned_to(const Vector& normal, Polygon polygon) {
-  if (dot(vector_area(polygon), normal) < 0) std::reverse(polygon.begin(), polygon.end());
-  return polygon;
 }
 
 Polygon corners(const WetPart& w) { return {w.corner.begin(), w.corner.end()}; }
@@ -106,14 +100,11 @@ class FaceAgreement {
     if (other < 0) return false;
     int back = 0;
     while (input_.outline.neighbour[other][back] != cell) ++back;
-    double whole = 0;
-    for (const WetPart& w : whole_cell(input_.outline, other).wet)
-      if (w.face == back) whole += w.area;
+    const double size = std::cbrt(input_.outline.volume(cell));
     const double own = area_of(cell, face), theirs = area_of(other, back);
-    if (std::abs(own - theirs) <= negligible * whole) return false;
+    if (std::abs(own - theirs) <= negligible * size * size) return false;
     for (const int c : {cell, other}) make_united(c);
     const std::vector<WetPart> here = wet_parts(cell, face), there = wet_parts(other, back);
-    const double size = std::cbrt(input_.outline.volume(cell));
     const std::vector<Part> both = intersection(here, there, size);
     const std::vector<int> facets = facets_at(cell, other);
     if (facets.empty()) return false;
@@ -170,16 +161,9 @@ class FaceAgreement {
     CutCell& receiver = cells_[found->second];
     std::erase_if(receiver.wet, [&](const WetPart& w) { return w.face == face; });
     for (const Part& p : both)
-      add_wet(turned_to(turn * p.normal, p.polygon), turn * p.normal, face, receiver);
+      append_wet(face, turn * p.normal, turned_to(turn * p.normal, p.polygon), receiver.wet);
     for (const Part& p : alone) add_pieces(p.polygon, p.normal, facets, receiver);
     measure(input_.outline, receiver);
-  }
-
-  static void add_wet(const Polygon& x, const Vector& normal, int face, CutCell& receiver) {
-    for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-      const double area = 0.5 * dot(cross(x[k] - x[0], x[k + 1] - x[0]), normal);
-      if (area != 0) receiver.wet.push_back({face, normal, {x[0], x[k], x[k + 1]}, 1.0, area});
-    }
   }
 
   /// @param normal out of the receiver

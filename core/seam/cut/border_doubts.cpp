@@ -22,9 +22,9 @@ double common(int dimension, const Vector* facet, const Border::Side& side) {
                  to = dot(facet[1] - side.corner[0], along) / whole;
     return std::max(0.0, std::min(whole, std::max(from, to)) - std::max(0.0, std::min(from, to)));
   }
-  Polygon own(side.corner.begin(), side.corner.end()), other(facet, facet + 3);
-  if (dot(vector_area(other), side.normal) < 0) std::reverse(other.begin(), other.end());
-  return std::abs(dot(vector_area(common_part(own, other, side.normal, 0)), side.normal));
+  const Polygon own(side.corner.begin(), side.corner.end()), other(facet, facet + 3);
+  const Polygon part = common_part(own, turned_to(side.normal, other), side.normal, 0);
+  return std::abs(dot(vector_area(part), side.normal));
 }
 
 double size_of(int dimension, const Border::Side& side) {

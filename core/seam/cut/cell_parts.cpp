@@ -157,13 +157,8 @@ class LeafParts {
         add_polygon(face.corner, outline_.sides[face.origin], number_.at(sets_.root(leaf)), result);
   }
   void add_polygon(const Polygon& x, const Side& side, int owner, Assignment& result) const {
-    const Vector normal = side_normal(outline_, side);
-    for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-      const double area = 0.5 * dot(cross(x[k] - x[0], x[k + 1] - x[0]), normal);
-      if (area == 0) continue;
-      result.wet.push_back({side.face, normal, {x[0], x[k], x[k + 1]}, 1.0, area});
-      result.wet_owner.push_back(owner);
-    }
+    append_wet(side.face, side_normal(outline_, side), x, result.wet);
+    result.wet_owner.resize(result.wet.size(), owner);
   }
   /// The side of the cell in whose plane a piece lies so that the wet part between them has no thickness, -1
   /// where there is none. That film is a part of its own: it belongs to what lies behind the side.

@@ -44,6 +44,11 @@ Vector vector_area(const Polygon& polygon) {
   return sum;
 }
 
+Polygon turned_to(const Vector& normal, Polygon polygon) {
+  if (dot(vector_area(polygon), normal) < 0) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
 void split(const Polygon& polygon, const Plane& plane, Polygon& front, Polygon& back) {
   front.clear();
   back.clear();

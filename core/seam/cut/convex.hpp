@@ -27,6 +27,8 @@ struct Convex {
 
 /// Vector area of a plane polygon.
 Vector vector_area(const Polygon& polygon);
+/// Its corners counter-clockwise about a normal.
+Polygon turned_to(const Vector& normal, Polygon polygon);
 /// Splits a convex polygon; either part may be empty.
 void split(const Polygon& polygon, const Plane& plane, Polygon& front, Polygon& back);
 /// Splits a polyhedron; the new faces get the given origin. Either part may be empty.

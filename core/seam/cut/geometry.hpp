@@ -72,6 +72,11 @@ Vector vector_area(int dimension, const Vector& a, const Vector& b, const Vector
 /// Vector area of a piece, out of the wet part.
 Vector vector_area(int dimension, const CutCell& cell, const Piece& piece);
 
+/// Appends a plane convex polygon as wet triangles of a face.
+/// @param normal unit, out of the cell; corners are counter-clockwise about it
+void append_wet(int face, const Vector& normal, const std::vector<Vector>& polygon,
+                std::vector<WetPart>& wet);
+
 /// Calls visit(corners, sign) for planar simplices that bound the cell's wet part; times the sign they are
 /// oriented outward.
 template <class Visit>

@@ -155,6 +155,14 @@ Vector vector_area(int dimension, const CutCell& cell, const Piece& piece) {
   return piece.scale * sum;
 }
 
+void append_wet(int face, const Vector& normal, const std::vector<Vector>& polygon,
+                std::vector<WetPart>& wet) {
+  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
+    const double area = dot(vector_area(3, polygon[0], polygon[k], polygon[k + 1]), normal);
+    if (area != 0) wet.push_back({face, normal, {polygon[0], polygon[k], polygon[k + 1]}, 1.0, area});
+  }
+}
+
 void measure(const Outline& outline, CutCell& cell) {
   const int dim = outline.dimension;
   const Vector centre = outline.centre(cell.cell);

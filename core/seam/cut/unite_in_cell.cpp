@@ -93,7 +93,6 @@ class CellUnion {
                                     bool in_front) const;
   void collect(const Node& node, std::vector<const Node*>& ancestors);
   void add_leaf(const Node& leaf, const std::vector<const Node*>& ancestors);
-  void add_wet(const Polygon& polygon, const Side& side);
   void add_interface(const Polygon& polygon, const Node& node);
   void add_piece(const Polygon& polygon, const Piece& source, const Vector& into, double scale);
   static void against_body(const Node& node, const Polygon& polygon, std::vector<Polygon>& parts);
@@ -341,7 +340,8 @@ void CellUnion::add_leaf(const Node& leaf, const std::vector<const Node*>& ances
   for (const Convex::Face& face : leaf.part.faces) {
     if (face.origin == inner) continue;
     if (face.origin >= 0) {
-      add_wet(face.corner, input_.outline.sides[face.origin]);
+      const Side& side = input_.outline.sides[face.origin];
+      append_wet(side.face, side_normal(input_.outline, side), face.corner, wet_);
       continue;
     }
     const Node* node = nodes_[-2 - face.origin];
@@ -350,14 +350,6 @@ void CellUnion::add_leaf(const Node& leaf, const std::vector<const Node*>& ances
     std::vector<Polygon> parts;
     against_body(behind, face.corner, parts);
     for (const Polygon& p : parts) add_interface(p, *node);
-  }
-}
-
-void CellUnion::add_wet(const Polygon& polygon, const Side& side) {
-  const Vector normal = side_normal(input_.outline, side);
-  for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
-    const double area = 0.5 * dot(cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]), normal);
-    if (area != 0) wet_.push_back({side.face, normal, {polygon[0], polygon[k], polygon[k + 1]}, 1.0, area});
   }
 }
 

@@ -56,13 +56,16 @@ std::vector<Conflict> conflicts_of(const FieldEntry& entry, double time) {
 void warn_of_covered(const FieldEntry& entry, const Communicator& communicator,
                      std::vector<Diagnostic>& warnings) {
   if (!entry.cut) return;
-  const std::vector<CellFace> covered = entry.cut->mesh().covered_faces();
+  using Face = std::pair<int, int>;
+  std::set<Face> covered;
+  for (const CellFace& f : entry.cut->mesh().covered_faces()) covered.emplace(f.cell, f.face);
   if (!communicator.any(!covered.empty())) return;
   std::set<std::string> named;
   for (const PrescribedCondition& condition : entry.conditions) {
+    if (condition.boundary.empty()) continue;  // holds everywhere
     const std::vector<CellFace>& faces = entry.mesh->boundary(condition.boundary);
-    const bool meets = std::ranges::any_of(
-        faces, [&](const CellFace& f) { return std::ranges::find(covered, f) != covered.end(); });
+    const bool meets =
+        std::ranges::any_of(faces, [&](const CellFace& f) { return covered.contains(Face(f.cell, f.face)); });
     if (!communicator.any(meets) || !named.insert(condition.boundary).second) continue;
     warnings.push_back(
         {Diagnostic::Severity::warning, condition.where,
