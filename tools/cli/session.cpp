@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
+#include <vector>
 
 #include "command.hpp"
 #include "seam/base/all_or_none.hpp"
@@ -45,6 +48,25 @@ void use_one_blas_thread() {
   if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
 }
 
+/// MPI_Init. Where no launcher has started us, Open MPI would start a daemon, which takes 0.1 s, and make
+/// folders below the one for temporary files that processes which begin and end at the same time remove for
+/// each other: one of some thousand starts failed. A process alone needs neither. Children are not to know.
+void start_mpi() {
+  constexpr std::array launchers{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK"};
+  constexpr std::array<std::array<const char*, 2>, 2> alone{
+      {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_orte_create_session_dirs", "false"}}};
+  const bool launched =
+      std::any_of(launchers.begin(), launchers.end(), [](const char* name) { return std::getenv(name); });
+  std::vector<const char*> mine;
+  for (const auto& [name, value] : alone) {
+    if (launched || std::getenv(name)) continue;
+    setenv(name, value, 0);
+    mine.push_back(name);
+  }
+  MPI_Init(nullptr, nullptr);
+  for (const char* name : mine) unsetenv(name);
+}
+
 }  // namespace
 
 std::string agree_on_exception() {
@@ -62,7 +84,7 @@ std::string agree_on_exception() {
 
 int run_on_all_ranks(const std::function<int(bool)>& action) {
   use_one_blas_thread();
-  MPI_Init(nullptr, nullptr);
+  start_mpi();
   MPI_Comm_dup(MPI_COMM_WORLD, &failures);
   const bool is_root = Communicator().rank() == 0;
   int code = ok;
