@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Two fields that meet at a matching interface, whose cells may lie on different ranks.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -115,6 +116,16 @@ void check_exact(Problem& problem) {
 }
 
 }  // namespace
+
+TEST_CASE("a message beyond the 2 GiB that MPI sends at once is refused") {
+  struct Large {
+    std::array<char, 1 << 20> bytes;
+  };
+  const std::vector<Large> message(2048);
+  CHECK_THROWS_WITH(Communicator().gather_all(message),
+                    Catch::Contains("2147483648 bytes is beyond the 2 GiB"));
+  CHECK_THROWS_WITH(Communicator().exchange<Large>({message}), Catch::Contains("beyond the 2 GiB"));
+}
 
 TEST_CASE("two bodies exchange through a matching interface", "[ranks]") {
   const CellType cell = GENERATE(CellType::quadrilateral, CellType::triangle, CellType::hexahedron);

@@ -96,7 +96,8 @@ Command run_command(CLI::App& parent) {
                                       "continue from the newest restart point, if there is one");
   app->add_flag("--changed", options->use.changed, "with --resume: go on although the scene has changed")
       ->needs(resume);
-  app->add_option("--stop-after", options->stop_after, "take so many steps only");
+  app->add_option("--stop-after", options->stop_after, "take so many steps, and leave a restart point")
+      ->check(CLI::PositiveNumber);
   add_common(app, *options);
   resume->excludes("--overwrite");
   return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};

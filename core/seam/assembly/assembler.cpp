@@ -154,22 +154,26 @@ std::string Assembler::describe_not_finite(const TimePoint& at) {
   return {text.begin(), end};
 }
 
-template <class Product>
-std::vector<double> Assembler::absolute_product(const SizeOf& size_of, const Product& product) const {
-  std::vector<double> size(pending_.size(), 0.0);  // per local unknown
+template <class Term>
+std::vector<double> Assembler::sum_rows(const PerUnknown& vector, const Term& term) const {
+  std::vector<double> number(pending_.size(), 0.0);  // per local unknown
   for (const NumberedBlock& b : blocks_)
     for (std::size_t node = 0; node < b.node_index.size(); ++node) {
       if (b.node_index[node] < 0) continue;
       const int first = graph_.node(b.node_index[node]).first;
       for (int c = 0; c < b.block->size; ++c)
-        size[first + c] = size_of(*b.field, *b.block, c, b.block->now.value[node * b.block->size + c]);
+        number[first + c] = vector(*b.field, *b.block, static_cast<int>(node), c);
     }
   std::vector<double> result(matrix_.rows, 0.0);
   for (int r = 0; r < matrix_.rows; ++r)
     for (std::size_t k = matrix_.row_start[r]; k < matrix_.row_start[r + 1]; ++k)
-      if (const auto column = static_cast<std::size_t>(matrix_.column[k]); column < size.size())
-        result[r] += product(matrix_.value[k], size[column]);
+      if (const auto column = static_cast<std::size_t>(matrix_.column[k]); column < number.size())
+        result[r] += term(matrix_.value[k], number[column]);
   return result;
+}
+
+std::vector<double> Assembler::absolute_product(const PerUnknown& size) const {
+  return sum_rows(size, [](double entry, double number) { return std::abs(entry * number); });
 }
 
 std::vector<double> Assembler::rounding() const {
@@ -184,17 +188,14 @@ std::vector<double> Assembler::rounding() const {
       added[b.block].push_back(displaces ? cell : 0.0);
   }
   // Roundings are as often up as down: their squares add up.
-  std::vector<double> squares = absolute_product(
-      [&](const Field&, const Block& block, int component, double value) {
-        return spacing * (std::abs(value) + added.at(&block)[component]);
+  std::vector<double> squares = sum_rows(
+      [&](const Field&, const Block& block, int node, int c) {
+        const double value = block.now.value[static_cast<std::size_t>(node) * block.size + c];
+        return spacing * (std::abs(value) + added.at(&block)[c]);
       },
       [](double entry, double size) { return entry * size * entry * size; });
   for (double& square : squares) square = std::sqrt(square);
   return squares;
-}
-
-std::vector<double> Assembler::absolute_product(const SizeOf& size_of) const {
-  return absolute_product(size_of, [](double entry, double size) { return std::abs(entry) * size; });
 }
 
 void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tangent) {

@@ -39,11 +39,11 @@ class Assembler {
   /// as no less than a cell is wide: what they are is seen beside the 1 of the deformation gradient. From the
   /// last matrix. Collective.
   [[nodiscard]] std::vector<double> rounding() const;
-  /// Sizes of an unknown of a local node, for absolute_product(): of a component of a block there.
-  using SizeOf = std::function<double(const Field& field, const Block& block, int component, double value)>;
+  /// A number for each unknown: a component of a block at a local node.
+  using PerUnknown = std::function<double(const Field& field, const Block& block, int node, int component)>;
   /// The last matrix, each entry by its size, times sizes of the unknowns, [owned row]. What other ranks
   /// alone know of is left out.
-  [[nodiscard]] std::vector<double> absolute_product(const SizeOf& size_of) const;
+  [[nodiscard]] std::vector<double> absolute_product(const PerUnknown& size) const;
 
   [[nodiscard]] const Matrix& matrix() const { return matrix_; }
   /// [owned row]; zero where the unknown is prescribed.
@@ -103,8 +103,9 @@ class Assembler {
   void hold_prescribed(bool with_tangent);
   [[nodiscard]] bool all_finite(bool with_tangent) const;
   /// @param product of an entry of the matrix and the size of its unknown
-  template <class Product>
-  [[nodiscard]] std::vector<double> absolute_product(const SizeOf& size_of, const Product& product) const;
+  /// Sum of term(entry, number) over each owned row.
+  template <class Term>
+  [[nodiscard]] std::vector<double> sum_rows(const PerUnknown& vector, const Term& term) const;
 
   std::vector<Field*> fields_;
   Communicator communicator_;

@@ -31,9 +31,8 @@ class Communicator {
   [[nodiscard]] long long sum(long long value) const { return reduce(value, MPI_LONG_LONG, MPI_SUM); }
   [[nodiscard]] int max(int value) const { return reduce(value, MPI_INT, MPI_MAX); }
   [[nodiscard]] bool any(bool value) const { return max(value ? 1 : 0) != 0; }
-  void sum(std::vector<double>& values) const {
-    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM, handle_);
-  }
+  void sum(std::vector<double>& values) const { reduce(values, MPI_SUM); }
+  void max(std::vector<double>& values) const { reduce(values, MPI_MAX); }
   /// Sum of the values of all lower ranks.
   [[nodiscard]] long long sum_before(long long value) const {
     long long result = 0;
@@ -85,6 +84,10 @@ class Communicator {
     check_bytes(
         static_cast<long long>(values.size() * sizeof(T)));  // NOLINT(bugprone-misplaced-widening-cast)
     return static_cast<int>(values.size() * sizeof(T));
+  }
+  void reduce(std::vector<double>& values, MPI_Op operation) const {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, operation,
+                  handle_);
   }
   template <class T>
   [[nodiscard]] T reduce(T value, MPI_Datatype type, MPI_Op operation) const {

@@ -49,6 +49,9 @@ class LinearSolver {
 
 /// y = A x. Collective. @param x, y [owned row]
 void multiply(const Matrix& a, const std::vector<double>& x, std::vector<double>& y);
+/// The same for several vectors.
+[[nodiscard]] std::vector<std::vector<double>> multiply(const Matrix& a,
+                                                        const std::vector<std::vector<double>>& x);
 
 /// Euclidean norm over all ranks. Collective.
 double norm(const Communicator& communicator, const std::vector<double>& x);

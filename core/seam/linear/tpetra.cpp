@@ -57,16 +57,28 @@ void from_tpetra(const TpetraVector& vector, std::vector<double>& x) {
 }
 
 void multiply(const Matrix& a, const std::vector<double>& x, std::vector<double>& y) {
-  y.assign(a.rows, 0.0);
+  y = std::move(multiply(a, std::vector<std::vector<double>>{x}).front());
+}
+
+std::vector<std::vector<double>> multiply(const Matrix& a, const std::vector<std::vector<double>>& x) {
+  std::vector y(x.size(), std::vector<double>(a.rows, 0.0));
   if (a.communicator.size() == 1) {
-    for (int r = 0; r < a.rows; ++r)
-      for (std::size_t k = a.row_start[r]; k < a.row_start[r + 1]; ++k) y[r] += a.value[k] * x[a.column[k]];
-    return;
+    for (std::size_t v = 0; v < x.size(); ++v)
+      for (int r = 0; r < a.rows; ++r)
+        for (std::size_t k = a.row_start[r]; k < a.row_start[r + 1]; ++k)
+          y[v][r] += a.value[k] * x[v][a.column[k]];
+    return y;
   }
   const auto matrix = tpetra_view(a);
-  const auto in = to_tpetra(matrix->getDomainMap(), x), out = to_tpetra(matrix->getRangeMap(), y);
-  matrix->apply(*in, *out);
-  from_tpetra(*out, y);
+  TpetraVector in(matrix->getDomainMap(), x.size()), out(matrix->getRangeMap(), x.size());
+  for (std::size_t v = 0; v < x.size(); ++v)
+    std::copy(x[v].begin(), x[v].end(), in.getDataNonConst(v).begin());
+  matrix->apply(in, out);
+  for (std::size_t v = 0; v < x.size(); ++v) {
+    const auto data = out.getData(v);
+    y[v].assign(data.begin(), data.end());
+  }
+  return y;
 }
 
 }  // namespace seam

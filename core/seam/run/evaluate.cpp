@@ -178,8 +178,11 @@ double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
       return communicator.sum(sum);
     case MeasureOf::least:
       return -communicator.max(-least);
-    case MeasureOf::greatest:
-      return communicator.max(greatest);
+    case MeasureOf::greatest: {
+      // Where there is no point, as where nothing is opposite any more, nothing presses.
+      const double most = communicator.max(greatest);
+      return std::isinf(most) && most < 0 ? 0 : most;
+    }
   }
   return 0;
 }

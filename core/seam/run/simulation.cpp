@@ -363,7 +363,7 @@ const Results& Simulation::run(const RunOptions& options) {
     step = *shorter;
   }
   if (stepper_.finished(state_.time)) finish_errors();
-  if (interruption_) keep_state();
+  if (interruption_ || !stepper_.finished(state_.time)) keep_state();
   finish_timings();
   note_end();
   if (own_folder_) {

@@ -31,7 +31,7 @@ struct RunOptions {
   bool resume = false;             ///< continue from the newest restart point in the folder, if there is one
   bool quiet = false;              ///< no progress line
   bool announce = false;           ///< say where a run that is resumed starts
-  std::optional<long> stop_after;  ///< steps to take in this run, for tests of the restart
+  std::optional<long> stop_after;  ///< steps to take in this run
   /// No step is begun after so many seconds since the simulation was begun to be built.
   double time_limit = std::numeric_limits<double>::infinity();
 };

@@ -13,6 +13,8 @@ namespace seam {
 namespace {
 
 constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
+/// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.
+constexpr double no_resistance = 1e-14;
 /// In rounding errors of the residual: forces below that are none. A strain of 1e-10 has larger ones.
 constexpr double nothing_acts = 1e6;
 /// Part of a value that counts as its change in the step: in a steady state increments are noise.
@@ -256,6 +258,12 @@ bool Newton::follow(NewtonIteration& entry) {
 
 void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   Assembler& assembler = problem_.assembler();
+  // A solver finds what has no resistance by luck: where rounding leaves some, it returns any such change.
+  if (const long long pattern = assembler.matrix().pattern_version; pattern != held_) {
+    const std::string free = describe_free_modes(problem_, no_resistance);
+    if (!free.empty()) throw SingularMatrix("the matrix is singular\n" + free, {});
+    held_ = pattern;
+  }
   try {
     report =
         solver_.solve(assembler.matrix(), assembler.equation_blocks(), assembler.right_side(), increment);

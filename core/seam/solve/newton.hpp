@@ -106,8 +106,13 @@ class Newton {
   std::size_t freed_ = 0;      ///< the iteration from which on the cut has followed
   double since_freezing_ = 0;  ///< how far anything has moved, m
   double far_ = 0;             ///< how far it may, m
+  long long held_ = -1;        ///< pattern for which it is known that nothing changes without resistance
   std::string not_finite_;     ///< what was not in the last state that was tried
 };
+
+/// Names fields of which a connected part can change without more than some resistance in the present matrix,
+/// as a part of what its equations are made of, one line each; "" if there is none. Collective.
+std::string describe_free_modes(Problem& problem, double resistance);
 
 /// Names the fields that can move without resistance in the present matrix, one line each; "" if none can.
 std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations);

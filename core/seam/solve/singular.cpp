@@ -4,60 +4,103 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <list>
+#include <map>
+#include <set>
 
 #include "seam/base/disjoint_sets.hpp"
+#include "seam/solve/connected_nodes.hpp"
 #include "seam/solve/newton.hpp"
 
 namespace seam {
 namespace {
 
-/// |K m| / (|K| |m|), where |K| is measured by the largest entries of the mode's rows. All rows count that
-/// resist: those of a velocity hold a pressure at an outflow.
-double resistance(const Problem& problem, const Matrix& k, const std::vector<double>& mode) {
-  std::vector<double> product;
-  multiply(k, mode, product);
-  double force = 0, scale = 0;
-  for (int r = 0; r < k.rows; ++r) {
-    force += product[r] * product[r];
-    if (mode[r] == 0) continue;
-    double largest = 0;
-    for (std::size_t e = k.row_start[r]; e < k.row_start[r + 1]; ++e)
-      largest = std::max(largest, std::abs(k.value[e]));
-    scale += largest * largest * mode[r] * mode[r];
-  }
-  std::vector<double> sums{force, scale};
-  problem.communicator().sum(sums);
-  return sums[1] > 0 ? std::sqrt(sums[0] / sums[1]) : 0.0;
-}
+/// A way in which a connected part of a field might change without resistance.
+struct Mode {
+  const FieldEntry* entry;
+  const Block* block;
+  std::string name;  ///< "a translation in x"
+  std::string unknown;
+  const ConnectedNodes* parts;
+  int part;               ///< of these
+  int first, components;  ///< of the unknown within the block
+  std::function<double(const double* x, int component)> value;
 
-/// Modes an unknown can have without resistance: a constant in each component and, for a vector, rotations.
-std::vector<std::pair<std::string, std::vector<double>>> candidate_modes(Problem& problem,
-                                                                         const FieldEntry& entry,
-                                                                         const Unknown& unknown) {
-  Assembler& assembler = problem.assembler();
+  [[nodiscard]] double at(const Field& field, const Block& of, int node, int component) const {
+    const int c = component - first;
+    if (&field != entry->field.get() || &of != block || c < 0 || c >= components || (*parts)[node] != part)
+      return 0;
+    return value(block->space->position(node), c);
+  }
+};
+
+/// Constants of an unknown's components and, of a vector, rotations.
+void add_modes(const FieldEntry& entry, const Unknown& unknown, const ConnectedNodes& parts, int part,
+               std::vector<Mode>& modes) {
   const Field::Place place = entry.field->place(unknown.name);
   const Block& block = entry.field->blocks()[place.block];
   const int dim = entry.mesh->dimension();
   const bool vector = place.components == dim;
-  std::vector<std::pair<std::string, std::vector<double>>> modes;
-  const auto fill = [&](const std::string& name, const std::function<double(const double*, int)>& value) {
-    auto& mode = modes.emplace_back(name, std::vector<double>(assembler.matrix().rows, 0.0)).second;
-    for (int node = 0; node < block.space->owned_nodes(); ++node)
-      for (int c = 0; c < place.components; ++c) {
-        const int row = assembler.row(*entry.field, place.block, node, place.offset + c);
-        if (row >= 0) mode[row] = value(block.space->position(node), c);
-      }
-  };
   static const char axis[] = "xyz";
+  const auto add = [&](const std::string& name, std::function<double(const double*, int)> value) {
+    modes.push_back(
+        {&entry, &block, name, unknown.name, &parts, part, place.offset, place.components, std::move(value)});
+  };
   for (int d = 0; d < place.components; ++d)
-    fill(vector ? fmt::format("a translation in {}", axis[d]) : "a constant",
-         [d](const double*, int c) { return c == d ? 1.0 : 0.0; });
-  if (!vector) return modes;
+    add(vector ? fmt::format("a translation in {}", axis[d]) : "a constant",
+        [d](const double*, int c) { return c == d ? 1.0 : 0.0; });
+  if (!vector) return;
   for (int r = dim == 2 ? 2 : 0; r < 3; ++r)
-    fill(fmt::format("a rotation about {}", axis[r]), [r](const double* x, int c) {
+    add(fmt::format("a rotation about {}", axis[r]), [r](const double* x, int c) {
       return c == (r + 1) % 3 ? -x[(r + 2) % 3] : c == (r + 2) % 3 ? x[(r + 1) % 3] : 0.0;
     });
-  return modes;
+}
+
+/// How much of what each mode does to each equation is left when it is added up: |K m| / (|K| |m|), the
+/// largest of each by kinds of equations (components of a block), since these have units of their own; of the
+/// kinds the one that resists most. Rounding leaves some 1e-16. Collective.
+std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes) {
+  const Assembler& assembler = problem.assembler();
+  int kinds = 0;
+  for (const FieldEntry& entry : problem.fields())
+    for (const Block& block : entry.field->blocks()) kinds += block.size;
+  // action(kind, row) for each owned row; kinds of equations are counted through.
+  const auto each_row = [&](const auto& action) {
+    int kind = 0;
+    for (const FieldEntry& entry : problem.fields())
+      for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
+        const Block& block = entry.field->blocks()[b];
+        for (int node = 0; node < block.space->owned_nodes(); ++node)
+          if (const int row = assembler.row(*entry.field, static_cast<int>(b), node, 0); row >= 0)
+            for (int c = 0; c < block.size; ++c) action(*entry.field, block, node, c, kind + c, row + c);
+        kind += block.size;
+      }
+  };
+  std::vector vectors(modes.size(), std::vector<double>(assembler.matrix().rows, 0.0));
+  for (std::size_t m = 0; m < modes.size(); ++m)
+    each_row([&](const Field& field, const Block& block, int node, int c, int, int row) {
+      vectors[m][row] = modes[m].at(field, block, node, c);
+    });
+  const std::vector<std::vector<double>> products = multiply(assembler.matrix(), vectors);
+  std::vector<double> left(modes.size() * kinds, 0.0), size(left);
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const std::vector<double> sizes =
+        assembler.absolute_product([&](const Field& field, const Block& block, int node, int c) {
+          return modes[m].at(field, block, node, c);
+        });
+    each_row([&](const Field&, const Block&, int, int, int kind, int row) {
+      double& most = left[m * kinds + kind];
+      most = std::max(most, std::abs(products[m][row]));
+      double& largest = size[m * kinds + kind];
+      largest = std::max(largest, sizes[row]);
+    });
+  }
+  problem.communicator().max(left);
+  problem.communicator().max(size);
+  std::vector<double> result(modes.size(), 0.0);
+  for (std::size_t k = 0; k < left.size(); ++k)
+    if (size[k] > 0) result[k / kinds] = std::max(result[k / kinds], left[k] / size[k]);
+  return result;
 }
 
 /// How many parts a mesh has that share no node.
@@ -89,20 +132,32 @@ std::string describe_parts(const FieldEntry& entry) {
 
 }  // namespace
 
-std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations) {
-  const Matrix& k = problem.assembler().matrix();
-  std::string text;
+std::string describe_free_modes(Problem& problem, double resistance) {
+  std::list<ConnectedNodes> parts;
+  std::vector<Mode> modes;
   for (const FieldEntry& entry : problem.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
-      std::vector<std::string> free;
-      for (const auto& [name, mode] : candidate_modes(problem, entry, unknown))
-        if (resistance(problem, k, mode) < 1e-10) free.push_back(name);
-      if (!free.empty())
-        text += fmt::format(
-            "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere "
-            "or couple the field to another\n",
-            entry.name, unknown.name, fmt::join(free, ", "));
+      const int block = entry.field->place(unknown.name).block;
+      if (entry.field->blocks()[block].given) continue;
+      parts.emplace_back(*entry.field, block);
+      for (const int part : parts.back().parts()) add_modes(entry, unknown, parts.back(), part, modes);
     }
+  const std::vector<double> found = resistances(problem, modes);
+  std::map<std::pair<const FieldEntry*, std::string>, std::set<std::string>> free;
+  for (std::size_t m = 0; m < modes.size(); ++m)
+    if (found[m] < resistance) free[{modes[m].entry, modes[m].unknown}].insert(modes[m].name);
+  std::string text;
+  for (const auto& [of, names] : free)
+    text += fmt::format(
+        "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere "
+        "or couple the field to another\n",
+        of.first->name, of.second, fmt::join(names, ", "));
+  return text;
+}
+
+std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations) {
+  const Matrix& k = problem.assembler().matrix();
+  std::string text = describe_free_modes(problem, 1e-10);
   if (!text.empty() || equations.empty()) return text;
   for (const EquationBlock& block : problem.assembler().equation_blocks())
     for (const long long equation : equations) {

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The level of a pressure in fluid that is closed in, also where nothing flows.
+#include "scene_run.hpp"
+
+using Catch::Matchers::Contains;
+using namespace seam_cli_test;
+
+namespace {
+
+/// Water at rest under gravity around a box, in a tank whose walls it slips along.
+const std::string tank = R"yaml(
+title: A tank
+dimension: 2
+plugins: [cutfem_fluid]
+parameters: {order: 1, bottom: 0.25, lid: 0}
+meshes: {tank: {grid: {from: [0, 0], to: [1, 1], cells: [8, 8]}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: tank
+    density: 2
+    viscosity: 0.1
+    order: ${order}
+    body_force: [0, -10]
+    boundary:
+      - {on: [y_min, x_min, x_max], velocity: [0, 0]}
+      - {on: y_max, velocity: ["lid*x*(1-x)*(t > 0.5)", 0]}
+interfaces: {box: {type: cut, field: water, body: {type: box, from: [0.25, bottom], to: [0.75, 0.5]}}}
+coupling: [{type: fluid_wall, on: box, velocity: [0, 0]}]
+time: {end: 1, step: {initial: 0.25}}
+output:
+  fields: false
+  probes:
+    bottom: {field: water, at: [0, 0], quantity: pressure}
+    top: {field: water, at: [0, 1], quantity: pressure}
+    speed: {field: water, at: [0.5, 0.875], quantity: velocity, component: magnitude}
+    lift: {interface: box, quantity: force, component: y}
+)yaml";
+
+/// A fluid between a disc that turns and a circle that touches the four sides of the mesh's square.
+const std::string ring = R"yaml(
+title: A ring of fluid
+dimension: 2
+plugins: [cutfem_fluid]
+parameters: {n: 8}
+meshes: {box: {grid: {from: [-1, -1], to: [1, 1], cells: [2*n, 2*n]}}}
+fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.3}}
+interfaces:
+  inner: {type: cut, field: water, body: {type: circle, centre: [0, 0], radius: 0.5, facets: 200}}
+  outer: {type: cut, field: water, body: {type: level_set, value: "1 - x^2 - y^2"}}
+coupling:
+  - {type: fluid_wall, on: inner, velocity: ["-2*y", "2*x"]}
+  - {type: fluid_wall, on: outer, velocity: [0, 0]}
+time: {static: true, end: 1}
+output:
+  fields: false
+  probes: {at: {field: water, at: [0.75, 0], quantity: velocity, component: y}}
+)yaml";
+
+}  // namespace
+
+TEST_CASE("water at rest under gravity is held where it is closed in") {
+  for (const std::string order : {"1", "2"}) {
+    const Run run(tank, "--set parameters.order=" + order);
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    CHECK(run.series("bottom").back() - run.series("top").back() == Approx(20).epsilon(1e-9));
+    CHECK(run.series("speed").back() < 1e-9);
+    // Its weight is not the body's: rho g times its area.
+    CHECK(run.series("lift").back() == Approx(20 * 0.125).epsilon(1e-9));
+  }
+  const Run later(tank, "--set parameters.lid=1");
+  CAPTURE(later.done.output);
+  CHECK(later.done.code == 0);
+  CHECK(later.series("speed").back() > 1e-3);
+}
+
+TEST_CASE("a pressure that nothing holds is found where nothing flows", "[sanitized]") {
+  for (const std::string ranks : {"", "mpirun --oversubscribe -np 2", "mpirun --oversubscribe -np 3"}) {
+    const Run run(tank, "--set fields.water.fix_pressure=never parameters.bottom=0", ranks);
+    CAPTURE(run.done.output);
+    CHECK(run.done.code == 1);
+    CHECK_THAT(run.done.output, Contains("field 'water' is not held: its pressure can change by a constant"));
+  }
+  // Each part for itself: the fluid inside of a hollow body, while the fluid around it can get out.
+  const std::string inside = R"yaml(
+title: Two chambers
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {tank: {grid: {from: [0, 0], to: [1, 1], cells: [8, 8]}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: tank
+    density: 2
+    viscosity: 0.1
+    body_force: [0, -10]
+    fix_pressure: never
+    boundary: [{on: [y_min, x_min, x_max], velocity: [0, 0]}]
+interfaces: {wall: {type: cut, field: water, body: {type: box, from: [-0.1, 0.3], to: [1.1, 0.4]}}}
+coupling: [{type: fluid_wall, on: wall, velocity: [0, 0]}]
+output: {fields: false}
+)yaml";
+  const Run run(inside);
+  CAPTURE(run.done.output);
+  CHECK(run.done.code == 1);
+  CHECK_THAT(run.done.output, Contains("its pressure can change by a constant"));
+  CHECK(Run(inside, "--set fields.water.fix_pressure=auto").done.code == 0);
+}
+
+TEST_CASE("a boundary that the fluid touches in points only is not open") {
+  for (const std::string n : {"7", "8"}) {
+    const Run run(ring, "--set parameters.n=" + n);
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    // Taylor and Couette: A r + B/r.
+    CHECK(run.series("at").back() == Approx(-2 * 0.25 / 0.75 * 0.75 + 2 * 0.25 / 0.75 / 0.75).epsilon(0.02));
+  }
+}
