@@ -30,6 +30,20 @@ TEST_CASE("a restarted run equals the uninterrupted one to the bit, on one rank"
   CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
 }
 
+TEST_CASE("a run that stops after some steps goes on from there") {
+  const Folder folder;
+  // Without a restart point of its own within these steps.
+  const std::string rare = " --set output.restart.every=0 ";
+  REQUIRE(seam(run(folder, "parts", rare + "--stop-after 3")).code == 0);
+  const Result more = seam(run(folder, "parts", rare + "--resume --stop-after 3"));
+  CHECK(table(folder.read("parts/series.csv")).size() == 7);  // the initial state, too
+  for (const std::string count : {"0", "-3"}) {
+    const Result result = seam(run(folder, "none", "--stop-after " + count));
+    CHECK(result.code == 2);
+    CHECK_THAT(result.output, Catch::Contains("--stop-after"));
+  }
+}
+
 TEST_CASE("a run continues on other numbers of ranks") {
   const Folder folder;
   REQUIRE(seam(run(folder, "whole")).code == 0);
@@ -57,12 +71,12 @@ TEST_CASE("a damaged restart point is passed over", "[sanitized]") {
   const Folder folder;
   REQUIRE(seam(run(folder, "whole")).code == 0);
   REQUIRE(seam(run(folder, "parts", "--stop-after 22")).code == 0);
-  const std::filesystem::path newest = folder.path / "parts/restart/00000020.restart";
+  const std::filesystem::path newest = folder.path / "parts/restart/00000022.restart";
   REQUIRE(std::filesystem::exists(newest));
   std::filesystem::resize_file(newest, std::filesystem::file_size(newest) / 2);
   const Result result = seam(run(folder, "parts", "--resume"));
   REQUIRE(result.code == 0);
-  CHECK_THAT(result.output, Catch::Contains("00000020.restart") && Catch::Contains("damaged"));
+  CHECK_THAT(result.output, Catch::Contains("00000022.restart") && Catch::Contains("damaged"));
   CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
 }
 

@@ -97,7 +97,7 @@ TEST_CASE("a resumed run goes on with its own run, of the same scene") {
   REQUIRE(run(folder, "whole", heavy).code == 0);
   REQUIRE(run(folder, "r").code == 0);  // 40 steps, points 30 to 40
   REQUIRE(run(folder, "r", heavy + "--stop-after 12").code == 0);
-  CHECK(count_files(folder.path / "r/restart") == 2);
+  CHECK(count_files(folder.path / "r/restart") == 3);  // 5, 10 and 12
 
   const Result changed = run(folder, "r", "--resume");
   check_refused(changed, "fields.beam.density: 4000, now 1000");
@@ -106,7 +106,7 @@ TEST_CASE("a resumed run goes on with its own run, of the same scene") {
 
   const Result resumed = run(folder, "r", heavy + "--resume");
   CHECK(resumed.code == 0);
-  CHECK_THAT(resumed.output, Contains("continues from t = 0.1, step 10"));
+  CHECK_THAT(resumed.output, Contains("continues from t = 0.12, step 12"));
   CHECK(folder.read("r/series.csv") == folder.read("whole/series.csv"));
 }
 
@@ -168,7 +168,7 @@ TEST_CASE("--resume says when there is nothing to go on from") {
   CHECK_THAT(fresh.output, Contains("no restart point: starts at t = 0"));
   const Result again = run(folder, "r", "--resume");
   CHECK(again.code == 0);
-  CHECK_THAT(again.output, Contains("no restart point: starts at t = 0"));
+  CHECK_THAT(again.output, Contains("continues from t = 0.02, step 2"));
 }
 
 TEST_CASE(
@@ -179,12 +179,12 @@ TEST_CASE(
   const fs::path points = folder.path / "r/restart", others = folder.path / "other/restart";
   // One that is not listed, and one in place of a listed one.
   fs::copy_file(others / "00000040.restart", points / "00000040.restart");
-  fs::copy_file(others / "00000030.restart", points / "00000010.restart",
+  fs::copy_file(others / "00000030.restart", points / "00000012.restart",
                 fs::copy_options::overwrite_existing);
   const Result resumed = run(folder, "r", "--resume --stop-after 2");
   CHECK(resumed.code == 0);
-  CHECK_THAT(resumed.output, Contains("00000010.restart' was written by another run; an older one is used") &&
-                                 Contains("continues from t = 0.05, step 5"));
+  CHECK_THAT(resumed.output, Contains("00000012.restart' was written by another run; an older one is used") &&
+                                 Contains("continues from t = 0.1, step 10"));
   CHECK(fs::exists(points / "00000040.restart"));
 
   const std::string series = folder.read("r/series.csv");

@@ -152,6 +152,7 @@ std::string describe_free_modes(Problem& problem, double resistance) {
         "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere "
         "or couple the field to another\n",
         of.first->name, of.second, fmt::join(names, ", "));
+  for (const auto& [of, names] : free) text += describe_parts(*of.first);
   return text;
 }
 
