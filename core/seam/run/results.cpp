@@ -16,8 +16,10 @@ namespace {
 const std::vector<double>& series_of(const Results& results, const std::string& name) {
   const auto found = results.series.find(name);
   if (found != results.series.end()) return found->second;
-  throw Error(fmt::format("no result is called '{}'; did you mean '{}'? The run has: {}", name,
-                          nearest_name(name, results.names()), fmt::join(results.names(), ", ")));
+  const std::string nearest = nearest_name(name, results.names());
+  throw Error(fmt::format("no result is called '{}'{}; the run has: {}", name,
+                          nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest),
+                          fmt::join(results.names(), ", ")));
 }
 
 }  // namespace

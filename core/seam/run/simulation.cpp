@@ -15,6 +15,7 @@
 #include "seam/run/error_norms.hpp"
 #include "seam/run/interruption.hpp"
 #include "seam/run/progress.hpp"
+#include "seam/run/result_names.hpp"
 
 namespace seam {
 
@@ -283,6 +284,10 @@ void Simulation::start(const RunOptions& options) {
     problem_.initialise(stepper_.start(), !stepper_.is_static());
     problem_.update_spaces(time_point(stepper_.start(), 0, stepper_.theta()));
     step_->start();
+    // What is wrong with it is said before anything of an earlier run is replaced.
+    problem_.assembler().assemble(time_point(state_.time, 0, stepper_.theta()), false);
+    append_row(time_point(state_.time, 0, stepper_.theta()));
+    measure_errors();
   }
   warn(options);
   if (options.resume && options.announce) announce_start(resumed);
@@ -293,8 +298,6 @@ void Simulation::start(const RunOptions& options) {
     last_point_ = at;
     last_restart_ = state_.step_number;
   } else {
-    problem_.assembler().assemble(at, false);
-    append_row(at);
     write_outputs(at);
   }
   all_or_none<FileError>(communicator_, [&] {
@@ -362,7 +365,7 @@ const Results& Simulation::run(const RunOptions& options) {
                               until - from, reports_.back().reason));
     step = *shorter;
   }
-  if (stepper_.finished(state_.time)) finish_errors();
+  if (stepper_.finished(state_.time)) finish_results();
   if (interruption_ || !stepper_.finished(state_.time)) keep_state();
   finish_timings();
   note_end();
@@ -499,6 +502,8 @@ void Simulation::append_row(const TimePoint& at) {
   row.time.push_back(at.time);
   for (const Probe& probe : probes_) probe.record(problem_, at, row);
   record_integrals(problem_, at, row);
+  if (!names_checked_) check_result_names(scene_, row);
+  names_checked_ = true;
   check_numbers(row);
   record_formulas(scene_, row);
   state_.results.append(row);
@@ -542,7 +547,8 @@ void Simulation::save_restart() {
   timings_.output += watch.seconds();
 }
 
-void Simulation::finish_errors() {
+std::map<std::string, double> Simulation::measure_errors() {
+  std::map<std::string, double> errors;
   for (const auto& [name, p] : scene_.root.object("output").map("errors")) {
     const FieldEntry& entry = problem_.field(p.text("field"));
     const auto& exact = p.vector_expression("exact");
@@ -551,9 +557,14 @@ void Simulation::finish_errors() {
                                  ? interface_error_norms(problem_.interfaces().at(p.text("interface")), entry,
                                                          p.text("unknown"), exact, gradient, state_.time)
                                  : error_norms(entry, p.text("unknown"), exact, gradient, state_.time);
-    state_.results.once[name + ".l2"] = norms.l2;
-    if (norms.h1) state_.results.once[name + ".h1"] = *norms.h1;
+    errors[name + ".l2"] = norms.l2;
+    if (norms.h1) errors[name + ".h1"] = *norms.h1;
   }
+  return errors;
+}
+
+void Simulation::finish_results() {
+  for (const auto& [name, error] : measure_errors()) state_.results.once[name] = error;
   finish_statistics(scene_, state_.results);
   int most_linear = 0, frozen = 0;
   for (const NewtonReport& report : reports_) {

@@ -103,7 +103,9 @@ class Simulation {
   [[nodiscard]] bool restart_due() const;
   void save_restart();
   void finish_timings();
-  void finish_errors();
+  /// Errors of the present state, by name. Collective.
+  std::map<std::string, double> measure_errors();
+  void finish_results();
   void show_progress(const RunOptions& options, double seconds) const;
 
   const Scene& scene_;
@@ -125,6 +127,7 @@ class Simulation {
   std::optional<EventFile> events_;
   std::vector<NewtonReport> reports_;  ///< of all steps, those that were rewound among them
   Stopwatch run_watch_, restart_watch_;
+  bool names_checked_ = false;
   Timings timings_;
   TimePoint last_point_;   ///< of the last good state
   long last_fields_ = -1;  ///< step number of the fields written last

@@ -18,8 +18,12 @@ double share(const Field& field, int cell, int part) {
   return field.cut()->wet_volume(cell, part) / field.cut()->cell_volume(cell);
 }
 
-double time_error(const Field& field, const Block& block, int number, double step, double& largest) {
-  if (std::ranges::all_of(block.time_order, [](int order) { return order == 0; })) return 0;
+/// Of the unknown whose components in the block start at `first`.
+double time_error(const Field& field, int number, int first, int components, double step, double& largest) {
+  const Block& block = field.blocks()[number];
+  if (std::all_of(&block.time_order[first], &block.time_order[first] + components,
+                  [](int order) { return order == 0; }))
+    return 0;
   std::vector<double> sums(2, 0.0);
   for (int cell = 0; cell < field.mesh().owned_cells(); ++cell) {
     if (!field.active_cells()[cell]) continue;
@@ -27,8 +31,7 @@ double time_error(const Field& field, const Block& block, int number, double ste
       const double weight = share(field, cell, part);
       const int* nodes = field.cell_nodes(number, cell, part);
       for (int k = 0; k < block.space->nodes_per_cell(); ++k)
-        for (int c = 0; c < block.size; ++c) {
-          if (block.time_order[c] == 0) continue;
+        for (int c = first; c < first + components; ++c) {
           const std::size_t i = static_cast<std::size_t>(nodes[k]) * block.size + c;
           sums[0] += weight * std::pow(0.5 * step * (block.now.rate[i] - block.old.rate[i]), 2);
           sums[1] += weight * std::pow(block.now.value[i], 2);
@@ -47,10 +50,13 @@ double time_error(const Problem& problem, double step, std::vector<double>& larg
   double worst = 0;
   std::size_t number = 0;
   for (const FieldEntry& entry : problem.fields())
-    for (int b = 0; b < static_cast<int>(entry.field->blocks().size()); ++b, ++number) {
-      if (largest.size() == number) largest.push_back(0);
-      worst = std::max(worst, time_error(*entry.field, entry.field->blocks()[b], b, step, largest[number]));
-    }
+    // Each unknown by itself: they have units of their own.
+    for (int b = 0; b < static_cast<int>(entry.field->blocks().size()); ++b)
+      for (int first = 0; const int components : entry.field->blocks()[b].components) {
+        if (largest.size() == number) largest.push_back(0);
+        worst = std::max(worst, time_error(*entry.field, b, first, components, step, largest[number++]));
+        first += components;
+      }
   return worst;
 }
 

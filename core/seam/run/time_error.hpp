@@ -13,7 +13,7 @@ namespace seam {
 /// is squeezed between bodies sets the pace. And relative to no less than a part of the largest state so far:
 /// what is left of a motion when it comes to rest is noise. Collective.
 /// @param step length of the step that has led to the states, s
-/// @param largest sizes of the states so far, one for each block of each field; kept here, at first empty
+/// @param largest sizes of the states so far, one for each unknown of each field; kept here, at first empty
 double time_error(const Problem& problem, double step, std::vector<double>& largest);
 
 }  // namespace seam

@@ -260,7 +260,8 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   Assembler& assembler = problem_.assembler();
   // A solver finds what has no resistance by luck: where rounding leaves some, it returns any such change.
   if (const long long pattern = assembler.matrix().pattern_version; pattern != held_) {
-    const std::string free = describe_free_modes(problem_, no_resistance);
+    // What is held at first loses only levels: where fluid is closed in.
+    const std::string free = describe_free_modes(problem_, no_resistance, held_ >= 0);
     if (!free.empty()) throw SingularMatrix("the matrix is singular\n" + free, {});
     held_ = pattern;
   }

@@ -112,7 +112,8 @@ class Newton {
 
 /// Names fields of which a connected part can change without more than some resistance in the present matrix,
 /// as a part of what its equations are made of, one line each; "" if there is none. Collective.
-std::string describe_free_modes(Problem& problem, double resistance);
+/// @param levels_only looks at constants of scalars alone, as of a pressure
+std::string describe_free_modes(Problem& problem, double resistance, bool levels_only = false);
 
 /// Names the fields that can move without resistance in the present matrix, one line each; "" if none can.
 std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations);

@@ -132,13 +132,13 @@ std::string describe_parts(const FieldEntry& entry) {
 
 }  // namespace
 
-std::string describe_free_modes(Problem& problem, double resistance) {
+std::string describe_free_modes(Problem& problem, double resistance, bool levels_only) {
   std::list<ConnectedNodes> parts;
   std::vector<Mode> modes;
   for (const FieldEntry& entry : problem.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
-      const int block = entry.field->place(unknown.name).block;
-      if (entry.field->blocks()[block].given) continue;
+      const auto [block, offset, components] = entry.field->place(unknown.name);
+      if (entry.field->blocks()[block].given || (levels_only && components > 1)) continue;
       parts.emplace_back(*entry.field, block);
       for (const int part : parts.back().parts()) add_modes(entry, unknown, parts.back(), part, modes);
     }
