@@ -119,6 +119,22 @@ TEST_CASE("what a killed run had removed, but not noted yet, is not listed after
   CHECK_THAT(folder.read("r/manifest.txt"), !Contains("00000002.restart"));
 }
 
+TEST_CASE("a run whose list of files is lost is not taken for one that wrote nothing") {
+  const Folder folder;
+  for (const bool removed : {true, false}) {
+    REQUIRE(run(folder, "r", "--overwrite --stop-after 12").code == 0);
+    const std::string series = folder.read("r/series.csv"), record = folder.read("r/run.json");
+    if (removed)
+      fs::remove(folder.path / "r/manifest.txt");
+    else
+      static_cast<void>(folder.file("r/manifest.txt", "garbage"));
+    check_refused(run(folder, "r", "--resume"), "manifest.txt', the list of what this run wrote, is missing");
+    CHECK(folder.read("r/series.csv") == series);
+    CHECK(folder.read("r/run.json") == record);
+    CHECK(count_files(folder.path / "r/restart") == 3);
+  }
+}
+
 TEST_CASE("a changed scene goes on when told so, and what was changed is kept") {
   const Folder folder;
   REQUIRE(run(folder, "r", "--stop-after 10").code == 0);

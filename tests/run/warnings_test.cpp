@@ -235,3 +235,29 @@ TEST_CASE("an iterative solver that stops short is not taken for a pressure that
   // The outflow holds the pressure: by the rows of the velocity.
   CHECK_THAT(short_of.output, Catch::Contains("after 3 iterations") && !Catch::Contains("is not held"));
 }
+
+TEST_CASE("an outline that crosses itself is refused") {
+  const auto around = [](const std::string& corners) {
+    return R"yaml(
+title: A body
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [1, 1], cells: [6, 6]}}}
+fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 1}}
+interfaces: {body: {type: cut, field: water, body: {type: outline, corners: [)yaml" +
+           corners + R"yaml(]}}}
+coupling: [{type: fluid_wall, on: body, velocity: [0, 0]}]
+output: {fields: false}
+)yaml";
+  };
+  // The area that the first encloses twice counts twice: it is positive.
+  for (const std::string corners :
+       {"{at: [0.3, 0.3]}, {at: [0.6, 0.3]}, {at: [0.6, 0.6]}, {at: [0.5, 0.2]}",
+        "{at: [0.3, 0.3]}, {at: [0.6, 0.6]}, {at: [0.6, 0.3]}, {at: [0.3, 0.6000001]}"}) {
+    const Run run(around(corners));
+    CAPTURE(run.done.output);
+    CHECK(run.done.code == 2);
+    CHECK_THAT(run.done.output, Catch::Contains("the outline crosses itself"));
+  }
+  CHECK(Run(around("{at: [0.3, 0.3]}, {at: [0.6, 0.3]}, {at: [0.6, 0.6]}, {at: [0.5, 0.4]}")).done.code == 0);
+}

@@ -151,6 +151,7 @@ std::string Assembler::describe_not_finite(const TimePoint& at) {
   if (!text.empty()) text.push_back('\n');
   text = communicator_.gather_all(text);
   const auto end = std::find(text.begin(), text.end(), '\n');
+  if (text.empty()) return " sums of finite numbers, which are too large";
   return {text.begin(), end};
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 
 #include "seam/base/diagnostics.hpp"
 
@@ -17,6 +18,22 @@ void require_dimension(const Parameters& p, int dimension, int wanted) {
   if (dimension != wanted)
     throw Error(p.where(), fmt::format("a body '{}' needs a scene of dimension {}; this one has {}", p.type(),
                                        wanted, dimension));
+}
+
+/// Two sides of a polygon that cross between their ends.
+std::optional<std::pair<int, int>> find_crossing(const Surface& polygon) {
+  const auto end = [&](int side, int k) {
+    return &polygon.points[2 * static_cast<std::size_t>(polygon.facets[2 * side + k])];
+  };
+  const auto turn = [](const double* a, const double* b, const double* c) {
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  };
+  for (int i = 0; i < polygon.facet_count(); ++i)
+    for (int j = i + 2; j < polygon.facet_count(); ++j) {
+      const double *a = end(i, 0), *b = end(i, 1), *c = end(j, 0), *d = end(j, 1);
+      if (turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0) return std::pair(i, j);
+    }
+  return std::nullopt;
 }
 
 /// A shape that keeps its form.
@@ -39,7 +56,7 @@ class Circle final : public RigidShape {
     Schema s("A circle, as a regular polygon of the same area.");
     s.vector("centre", "its centre").unit("m");
     s.number("radius", "its radius").unit("m").above(0);
-    s.integer("facets", "sides of the polygon").at_least(3).otherwise("720");
+    s.integer("facets", "sides of the polygon").at_least(3).at_most(1000000).otherwise("720");
     return s;
   }
   [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
@@ -207,6 +224,10 @@ class Outline final : public RigidShape {
       s.facets.insert(s.facets.end(), {k, (k + 1) % n});
       twice_area += a[0] * b[1] - a[1] * b[0];
     }
+    if (const auto crossing = find_crossing(s))
+      throw Error(p_.where("corners"),
+                  fmt::format("the outline crosses itself: its side from corner {} and that from corner {}",
+                              crossing->first + 1, crossing->second + 1));
     if (n < 3 || twice_area <= 0)
       throw Error(p_.where("corners"),
                   fmt::format("an outline needs at least three corners in counter-clockwise order; these {} "

@@ -106,10 +106,11 @@ void Extension::check_reach(int number) const {
   }
   lost = mesh.communicator().max(lost);
   if (lost >= 0)
-    throw StepRefused(
-        fmt::format("field '{}': a body uncovers cell {} in one step, which no known state "
-                    "reaches; the step is too long for its motion",
-                    field_->name(), lost));
+    throw StepRefused(fmt::format(
+        "field '{}': a body uncovers cell {} in one step, which no known state reaches: it moves too far for "
+        "the step, or fluid begins where none was near, as between a boundary and a body that leaves "
+        "it: let it begin with a gap there",
+        field_->name(), lost));
 }
 
 Field& Extension::carrier(int order) {

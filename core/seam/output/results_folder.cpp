@@ -236,6 +236,12 @@ void ResultsFolder::judge(const FolderUse& use) {
                     "replace them with --overwrite",
                     word(found, "title"), word(found, "scene")));
   record_->data = found;
+  // Without it nobody knows which restart points are this run's, and which files it may replace.
+  if (use.resume && files_.empty() && is_there(path_ / "series.csv"))
+    refuse(
+        fmt::format("'{}', the list of what this run wrote, is missing or damaged, so that the run cannot go "
+                    "on; choose another --folder, or replace what is here with --overwrite",
+                    manifest_name));
   if (use.resume) {
     judge_changes(use);
     run_ = word(found, "run");

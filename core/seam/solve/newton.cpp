@@ -169,7 +169,8 @@ bool Newton::iterate() {
   entry.worst = size_.worst;
   entry.increment = size_.increment;
   if (!std::isfinite(size_.residual))
-    return fail("at the start of the step" + problem_.assembler().describe_not_finite(at_));
+    return fail("something is not finite at the start of the step:" +
+                problem_.assembler().describe_not_finite(at_));
   if (converged(entry, last)) return finish();
   if (iteration_ == options_.maximum_iterations)
     return fail(fmt::format(
