@@ -118,7 +118,7 @@ stage_endurance() {
 # verify_scenes SCENE...: runs scenes and compares them with their checks, each in a process and a folder of its own, as
 # many at once as there are cores.
 verify_scenes() {
-  local folder=$seam_build/scenes scene log
+  local folder=$seam_build/scenes scene log failed_before=$failed
   rm -rf "$folder"
   # After a process that a signal has ended xargs would start no more: hence `true`.
   # shellcheck disable=SC2016  # for the shell of each process
@@ -138,6 +138,7 @@ verify_scenes() {
       count 0 1
     fi
   done
+  [ "$failed" = "$failed_before" ]
 }
 
 stage_sanitize() {

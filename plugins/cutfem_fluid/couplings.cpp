@@ -30,7 +30,8 @@ class FluidWall final : public Coupling {
   explicit FluidWall(const Parameters& parameters) : parameters_(parameters) {}
   static Schema schema() {
     Schema s("A given velocity of the fluid where it meets a body, imposed weakly, with Navier slip.");
-    s.reference("on", "Interface with the fluid on side 0", "interface");
+    s.reference("on", "Interface with the fluid on side 0", "interface")
+        .of_types({"cut", "embedded", "matching"});
     s.vector_expression("velocity", "Velocity of the wall").unit("m/s");
     declare_weak_condition(s);
     return s;
@@ -51,7 +52,8 @@ class FluidTraction final : public Coupling {
   explicit FluidTraction(const Parameters& parameters) : parameters_(parameters) {}
   static Schema schema() {
     Schema s("A given traction on the fluid where it meets a body.");
-    s.reference("on", "Interface with the fluid on side 0", "interface");
+    s.reference("on", "Interface with the fluid on side 0", "interface")
+        .of_types({"cut", "embedded", "matching"});
     s.vector_expression("traction", "Force per area on the fluid").unit("Pa");
     return s;
   }
@@ -70,8 +72,8 @@ class FluidPatch final : public Coupling {
   explicit FluidPatch(const Parameters& parameters) : parameters_(parameters) {}
   static Schema schema() {
     Schema s("One fluid on two meshes: a patch with a moving mesh, and the background it is cut out of.");
-    s.reference("on", "Embedded interface with the background on side 0 and the patch on side 1",
-                "interface");
+    s.reference("on", "Embedded interface with the background on side 0 and the patch on side 1", "interface")
+        .of_types({"embedded"});
     s.number("patch_share", "Weight of the patch's stress in that of the interface, 0 to 1")
         .otherwise("1")
         .at_least(0)

@@ -20,7 +20,8 @@ class ContactCoupling final : public Coupling {
   static Schema schema() {
     Schema s("A deforming body that touches another one, a rigid one or itself, without friction.");
     s.reference("on", "Interface of type contact or obstacle: how one surface looks at the other",
-                "interface");
+                "interface")
+        .of_types({"contact", "obstacle"});
     s.number("penalty", "Factor gamma_0 of Nitsche's penalty, thesis (6.17)").otherwise("1").above(0);
     s.choice(
          "acts_on",

@@ -26,7 +26,8 @@ class ContactInFluid final : public Coupling {
     Schema s(
         "A fluid and a deforming body that share their motion and traction, and that body's contact without "
         "friction.");
-    s.reference("on", "Interface of type embedded_contact: the surface of one body", "interface");
+    s.reference("on", "Interface of type embedded_contact: the surface of one body", "interface")
+        .of_types({"embedded_contact"});
     s.number("slip_length", "Navier's, wherever it is: 0 is no slip, .inf leaves the body to glide freely")
         .unit("m")
         .otherwise("0")

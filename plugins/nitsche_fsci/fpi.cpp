@@ -34,7 +34,8 @@ class Fpi final : public Coupling {
 
   static Schema schema() {
     Schema s("A fluid and a porous body that it flows along, into and out of.");
-    s.reference("on", "Interface with the fluid on side 0 and the porous body on side 1", "interface");
+    s.reference("on", "Interface with the fluid on side 0 and the porous body on side 1", "interface")
+        .of_types({"embedded", "matching"});
     s.number("alpha",
              "Of Beavers and Joseph: the slip length is sqrt(tr k/3)/alpha, thesis (2.65); .inf is no slip")
         .otherwise("1")

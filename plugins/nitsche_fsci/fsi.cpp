@@ -32,7 +32,8 @@ class Fsi final : public Coupling {
 
   static Schema schema() {
     Schema s("A fluid and a deforming body that move together and share their traction.");
-    s.reference("on", "Interface with the fluid on side 0 and the body on side 1", "interface");
+    s.reference("on", "Interface with the fluid on side 0 and the body on side 1", "interface")
+        .of_types({"embedded", "matching"});
     s.choice("stress", "Whose stress is the traction: `fluid`, thesis (3.26), or `solid`, (3.29)",
              {"fluid", "solid"})
         .otherwise("fluid");

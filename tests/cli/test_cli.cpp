@@ -15,13 +15,40 @@ const std::string scene =
 
 }  // namespace
 
-TEST_CASE("seam check accepts a scene, with warnings, and reads its meshes") {
+TEST_CASE("seam check sets a scene up, with warnings, and leaves no trace") {
   const Folder folder;
-  const std::string file = folder.file("scene.yaml", scene);
-  const Result result = seam("check " + file + " --set parameters.n=6");
-  CHECK(result.code == 0);
-  CHECK_THAT(result.output,
-             Contains("mesh box: 12 quadrilateral cells") && Contains("warning: no field uses the mesh"));
+  const std::string file = folder.file("scene.yaml", R"yaml(
+title: A block
+dimension: 2
+plugins: [solid]
+parameters: {n: 4}
+meshes:
+  box: {grid: {from: [0, 0], to: [1, 1], cells: [n, 2]}}
+  other: {grid: {from: [0, 0], to: [1, 1], cells: [1, 1]}}
+fields:
+  block:
+    type: solid
+    mesh: box
+    density: 1
+    material: {type: neo_hookean, young: 10, poisson: 0.3}
+    boundary: [{on: y_min, displacement: [0, 0]}]
+output:
+  probes: {tip: {field: block, at: [1, 1], quantity: displacement}}
+)yaml");
+  for (const std::string before : {"", "mpirun --oversubscribe -np 2"}) {
+    const Result result = seam("check " + file + " --set parameters.n=6", before);
+    CHECK(result.code == 0);
+    CHECK_THAT(result.output, Contains("mesh box of 12 quadrilateral cells") &&
+                                  Contains("displacement (m)") && Contains("tip.x, tip.y") &&
+                                  Contains("42 unknowns") &&
+                                  Contains("warning: no field uses the mesh 'other'"));
+  }
+  CHECK_FALSE(std::filesystem::exists("results"));
+  // What only the equations show.
+  const Result free = seam("check " + file + " --set fields.block.boundary=[]");
+  CHECK(free.code == 2);
+  CHECK_THAT(free.output, Contains("is not held"));
+  CHECK(seam("check " + file + " --set fields.block.boundary=[] --without-meshes").code == 0);
 }
 
 TEST_CASE("exit codes tell broken input from failing plugins") {

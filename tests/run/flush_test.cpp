@@ -206,9 +206,12 @@ TEST_CASE("what is hardly meant beside the border is warned of, what is meant is
     for (const bool high : {false, true}) {
       CAPTURE(dimension, high);
       CHECK_THAT(said(pressed(dimension, 1, high, 1e-4)), Contains("0.0003 of a cell " + is_short));
-      // On the border, in the mesh, two hundredths of a cell away.
-      for (const double shift : {0.0, 1e-10, -1e-4, 0.0066})
+      // On the border, in the mesh.
+      for (const double shift : {0.0, 1e-10, -1e-4})
         CHECK_THAT(said(pressed(dimension, 1, high, shift)), !Contains("warning"));
+      // Two hundredths of a cell away the border is a border, and the block outside.
+      CHECK_THAT(said(pressed(dimension, 1, high, 0.0066)),
+                 !Contains(is_short) && Contains("nothing of the interface 'surface' lies in its field"));
     }
     const std::string on_it = pressed(dimension, 1, false, 0);
     CHECK_THAT(said(with(on_it, "to: [1.3,", "to: [0.5,")), Contains(in_part));

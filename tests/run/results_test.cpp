@@ -95,7 +95,7 @@ TEST_CASE("a picture that cannot be made is told, and the run is not a good one"
         "scene.yaml", drawn("output: {picture: {field: block, quantity: " + quantity + ", width: 200}}\n"));
     return seam("run " + scene + " --overwrite --folder " + (folder.path / "out").string());
   };
-  const auto bad = with("warmth");
+  const auto bad = with("von_mises, component: z");
   CAPTURE(bad.output);
   CHECK(bad.code == 1);
   CHECK_THAT(bad.output, Contains("the picture that the scene asks for was not made"));

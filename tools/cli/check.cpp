@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// seam check: everything about a scene that can be known without solving it.
-#include <fmt/format.h>
+// seam check: all that a run does before its first step, so that what a run would refuse is refused here.
+#include <fmt/ranges.h>
 
 #include <cstdio>
 #include <memory>
 
 #include "command.hpp"
-#include "seam/mesh/input/mesh_input.hpp"
+#include "seam/run/simulation.hpp"
+#include "session.hpp"
 
 namespace seam::cli {
 
@@ -18,46 +19,48 @@ struct Options {
   bool without_meshes = false;
 };
 
-/// Loads all meshes, so that the errors of several are reported at once.
-std::map<std::string, MeshNames> mesh_names(const Scene& scene) {
-  std::map<std::string, MeshNames> result;
-  std::string errors;
-  for (const auto& [name, parameters] : scene.root.map("meshes")) {
-    try {
-      const MeshData mesh = load_mesh(parameters);
-      MeshNames& names = result[name];
-      for (const auto& boundary : mesh.boundaries) names.boundaries.insert(boundary.first);
-      for (const auto& region : mesh.regions) names.regions.insert(region.first);
-      fmt::print("mesh {}: {} {} cells of order {}, {} nodes\n", name, mesh.cell_count(),
-                 seam::name(mesh.type), mesh.order, mesh.node_count());
-    } catch (const Error& e) {
-      errors += (errors.empty() ? "" : "\n") + std::string(e.what());
-    }
+void print_contents(Simulation& simulation) {
+  for (const FieldEntry& entry : simulation.problem().fields()) {
+    const MeshData& mesh = entry.mesh->whole();
+    std::vector<std::string> unknowns;
+    for (const Unknown& unknown : entry.field->unknowns())
+      unknowns.push_back(fmt::format("{} ({})", unknown.name, unknown.unit.empty() ? "-" : unknown.unit));
+    fmt::print("field {}: {}; mesh {} of {} {} cells of order {}, {} nodes\n", entry.name,
+               fmt::join(unknowns, ", "), entry.mesh->name(), mesh.cell_count(), seam::name(mesh.type),
+               mesh.order, mesh.node_count());
   }
-  if (!errors.empty()) throw Error(errors);
-  return result;
+  fmt::print("recorded at each step: {}\n", fmt::join(simulation.results().names(), ", "));
+  fmt::print("{} unknowns\n", simulation.unknowns());
 }
 
-int run(const Options& options) {
+int run(const Options& options, bool is_root) {
   Registry registry = builtin_types();
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(options.scene, parse_overrides(options.set), host, registry);
-  if (!options.without_meshes) check_mesh_names(scene, registry, mesh_names(scene));
-  if (!scene.warnings.all().empty()) fmt::print(stderr, "{}\n", scene.warnings.text());
-  fmt::print("{}: ok\n", options.scene);
+  Diagnostics warnings = scene.warnings;
+  if (!options.without_meshes) {
+    Simulation simulation(scene, registry, Communicator());
+    simulation.prepare();
+    simulation.require_held();
+    simulation.find_conflicts();
+    warnings = simulation.warnings();
+    if (is_root) print_contents(simulation);
+  }
+  if (is_root && !warnings.all().empty()) fmt::print(stderr, "{}\n", warnings.text());
+  if (is_root) fmt::print("{}: ok\n", options.scene);
   return ok;
 }
 
 }  // namespace
 
 Command check_command(CLI::App& parent) {
-  CLI::App* app =
-      parent.add_subcommand("check", "Check a scene, its plugins and its meshes, without solving");
+  CLI::App* app = parent.add_subcommand(
+      "check", "Check a scene: set it up as `run` does before the first step, without writing anything");
   auto options = std::make_shared<Options>();
   app->add_option("scene", options->scene, "YAML file")->required();
   app->add_option("--set", options->set, "replace a value: key.key=value; may be repeated")->take_all();
-  app->add_flag("--without-meshes", options->without_meshes, "leave the meshes alone");
-  return {app, [options] { return run(*options); }};
+  app->add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
+  return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 
 }  // namespace seam::cli

@@ -155,8 +155,6 @@ SceneOutcome run_scene(const SceneRun& run) {
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(run.scene, parse_overrides(run.set), host, registry);
   const Communicator communicator;
-  if (communicator.rank() == 0 && !scene.warnings.all().empty() && !run.quiet)
-    fmt::print(stderr, "{}\n", scene.warnings.text());
 
   SceneOutcome outcome;
   outcome.title = scene.root.text("title");

@@ -53,6 +53,8 @@ std::optional<std::string> section(const std::string& bytes, const std::string& 
       throw Error("its section table lies beyond its end: it is truncated or damaged");
     return require_at<Elf64_Shdr>(bytes, header.e_shoff + i * sizeof(Elf64_Shdr), "section table");
   };
+  // The table stands at the end: a file that is cut off lacks some of it.
+  if (header.e_shnum > 0) static_cast<void>(section_header(header.e_shnum - 1));
   const Elf64_Shdr names = section_header(header.e_shstrndx);
   for (std::uint64_t i = 0; i < header.e_shnum; ++i) {
     const Elf64_Shdr entry = section_header(i);

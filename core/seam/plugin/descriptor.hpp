@@ -15,7 +15,7 @@ namespace seam {
 
 /// Changes when a plugin must be rebuilt (major), or when something is added that older plugins do not miss
 /// (minor).
-inline constexpr std::uint16_t plugin_abi_major = 8;
+inline constexpr std::uint16_t plugin_abi_major = 9;
 inline constexpr std::uint16_t plugin_abi_minor = 0;
 
 /// Describes a plugin without running any of its code: it lies in an ELF note section of the shared library

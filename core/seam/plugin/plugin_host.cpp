@@ -199,6 +199,9 @@ std::string text_of_all(const std::vector<PluginFailure>& failures) {
 PluginError::PluginError(std::vector<PluginFailure> failures)
     : Error(text_of_all(failures)), failures_(std::move(failures)) {}
 
+PluginError::PluginError(const Location& where, std::vector<PluginFailure> failures)
+    : Error(where, "plugins: " + text_of_all(failures)), failures_(std::move(failures)) {}
+
 std::string PluginHost::Found::why_not() const {
   const auto failure = incompatible(*this);
   return failure ? fmt::format("found {}; expected {}; {}", failure->found, failure->expected, failure->hint)

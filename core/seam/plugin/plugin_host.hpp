@@ -26,6 +26,8 @@ struct PluginFailure {
 class PluginError : public Error {
  public:
   explicit PluginError(std::vector<PluginFailure> failures);
+  /// The same, of plugins that are asked for somewhere.
+  PluginError(const Location& where, std::vector<PluginFailure> failures);
   [[nodiscard]] const std::vector<PluginFailure>& failures() const { return failures_; }
 
  private:

@@ -39,7 +39,10 @@ void require_prescribed(const FieldEntry& entry, const std::vector<std::string>&
 }  // namespace
 
 Probe::Probe(std::string name, const Parameters& p, Problem& problem)
-    : name_(std::move(name)), field_(field_of(p, problem)), quantity_name_(p.text("quantity")) {
+    : name_(std::move(name)),
+      where_(p.has("component") ? p.where("component") : p.where()),
+      field_(field_of(p, problem)),
+      quantity_name_(p.text("quantity")) {
   const FieldEntry& entry = problem.field(field_);
   if (p.has("interface")) interface_ = p.text("interface");
   if (p.has("on")) boundaries_ = p.names("on");
@@ -86,8 +89,9 @@ void Probe::record(Problem& problem, const TimePoint& at, Results& results) cons
   } else if (!component_.empty()) {
     const std::size_t c = component_[0] - 'x';
     if (c >= values.size())
-      throw Error(fmt::format("probe '{}': '{}' has {} components, no '{}'", name_, quantity_name_,
-                              values.size(), component_));
+      throw Error(where_,
+                  fmt::format("probe '{}': '{}' has {} component{}, no component '{}'", name_, quantity_name_,
+                              values.size(), values.size() == 1 ? "" : "s", component_));
     results.series[name_].push_back(values[c]);
   } else if (values.size() == 1) {
     results.series[name_].push_back(values[0]);

@@ -21,6 +21,7 @@ class Probe {
   void choose_quantity(const Parameters& parameters, const FieldEntry& entry);
   [[nodiscard]] std::vector<double> evaluate(Problem& problem, const TimePoint& at) const;
   std::string name_;
+  Location where_;  ///< of the component, else of the probe
   std::string field_;
   std::string quantity_name_;
   NamedQuantity quantity_;

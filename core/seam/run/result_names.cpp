@@ -23,6 +23,10 @@ class Names {
     if (output_.map("formulas").empty()) return;
     for (const auto& [name, value] : scene.parameters) taken_[name] = "a parameter";
   }
+  /// From here on come numbers that formulas do not see: parameters may be called like them.
+  void leave_formulas() {
+    std::erase_if(taken_, [](const auto& entry) { return entry.second == "a parameter"; });
+  }
   /// A number that the run records under this name.
   void take(const std::string& name, const std::string& what, const Location& where) {
     const auto [found, is_new] = taken_.emplace(spelled_in_formulas(name), what);
@@ -74,6 +78,7 @@ void check_result_names(const Scene& scene, const Results& row) {
     names.take(name, "a formula", p.where());
     series.push_back(name);
   }
+  names.leave_formulas();
   for (const auto& [name, p] : output.map("statistics")) {
     names.take(name, "a statistic", p.where());
     names.require(p.text("of"), series, p.where("of"));

@@ -16,14 +16,25 @@
 #include "seam/run/interruption.hpp"
 #include "seam/run/progress.hpp"
 #include "seam/run/result_names.hpp"
+#include "seam/run/scene_doubts.hpp"
 
 namespace seam {
 
 std::map<std::string, std::shared_ptr<const MeshData>> load_meshes(const Scene& scene) {
   std::map<std::string, std::shared_ptr<const MeshData>> meshes;
-  for (const auto& entry : scene.root.map("meshes"))
-    meshes[entry.first] = needing_memory(fmt::format("the mesh '{}'", entry.first), entry.second.where(),
-                                         [&] { return std::make_shared<MeshData>(load_mesh(entry.second)); });
+  std::string errors;
+  for (const auto& [name, parameters] : scene.root.map("meshes")) {
+    try {
+      meshes[name] =
+          needing_memory(fmt::format("the mesh '{}'", name), parameters.where(),
+                         [&, &of = parameters] { return std::make_shared<MeshData>(load_mesh(of)); });
+    } catch (const OutOfMemory&) {
+      throw;
+    } catch (const Error& error) {
+      errors += (errors.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  if (!errors.empty()) throw Error(errors);
   return meshes;
 }
 
@@ -40,6 +51,7 @@ std::map<std::string, MeshNames> mesh_names(
 Simulation::Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator)
     : scene_(scene), communicator_(communicator), problem_(communicator), stepper_(scene) {
   const Stopwatch watch;
+  warnings_ = scene.warnings;
   build_fields(registry);
   build_couplings(registry);
   const Parameters& solver = scene.root.object("solver");
@@ -266,6 +278,46 @@ void Simulation::announce_start(bool resumed) const {
     fmt::print(stderr, "no restart point: starts at t = {:.6g}\n", state_.time);
 }
 
+void Simulation::prepare() {
+  state_.time = stepper_.start();
+  state_.step = stepper_.initial();
+  problem_.initialise(stepper_.start(), !stepper_.is_static());
+  const TimePoint at = time_point(stepper_.start(), 0, stepper_.theta());
+  problem_.update_spaces(at);
+  step_->start();
+  problem_.assembler().assemble(at, false);
+  append_row(at);
+  measure_errors();
+  check_output();
+}
+
+void Simulation::require_held() {
+  const double step = stepper_.is_static() ? 0 : stepper_.initial();
+  problem_.assembler().assemble(time_point(stepper_.start(), step, stepper_.theta()), true);
+  const std::string free = describe_free_modes(problem_, no_resistance);
+  if (!free.empty()) throw Error(scene_.root.where("fields"), free);
+  problem_.check_levels();
+}
+
+void Simulation::check_output() {
+  const Parameters& output = scene_.root.object("output");
+  if (output.boolean("interfaces") && problem_.measures().empty())
+    throw Error(
+        output.where("interfaces"),
+        "interfaces: no coupling measures anything on its interface, so that there is nothing to write");
+  if (output.boolean("cut") &&
+      std::ranges::none_of(problem_.fields(), [](const FieldEntry& entry) { return entry.cut != nullptr; }))
+    throw Error(output.where("cut"),
+                "cut: no interface cuts a body out of a field, so that there is no cut to write");
+  if (!output.has("picture")) return;
+  const Parameters& picture = output.object("picture");
+  try {
+    static_cast<void>(find_quantity(problem_.field(picture.text("field")), picture.text("quantity")));
+  } catch (const Error& error) {
+    throw Error(picture.where("quantity"), error.what());
+  }
+}
+
 void Simulation::start(const RunOptions& options) {
   if (!options.results)
     own_folder_ = std::make_unique<ResultsFolder>(
@@ -279,17 +331,12 @@ void Simulation::start(const RunOptions& options) {
     step_->set_largest(state_.largest);
     problem_.update_spaces(time_point(state_.time, 0, stepper_.theta()));
   } else {
-    state_.time = stepper_.start();
-    state_.step = stepper_.initial();
-    problem_.initialise(stepper_.start(), !stepper_.is_static());
-    problem_.update_spaces(time_point(stepper_.start(), 0, stepper_.theta()));
-    step_->start();
     // What is wrong with it is said before anything of an earlier run is replaced.
-    problem_.assembler().assemble(time_point(state_.time, 0, stepper_.theta()), false);
-    append_row(time_point(state_.time, 0, stepper_.theta()));
-    measure_errors();
+    prepare();
   }
-  warn(options);
+  find_conflicts();
+  if (communicator_.rank() == 0 && !options.quiet && !warnings_.all().empty())
+    fmt::print(stderr, "{}\n", warnings_.text());
   if (options.resume && options.announce) announce_start(resumed);
   folder_->begin(resumed ? std::optional(state_.step_number) : std::nullopt);
   open_outputs(resumed ? state_.time : -1.0);
@@ -307,8 +354,7 @@ void Simulation::start(const RunOptions& options) {
   });
 }
 
-/// What only the built problem shows.
-void Simulation::warn(const RunOptions& options) {
+void Simulation::find_conflicts() {
   const std::vector<Diagnostic> at_start = problem_.find_conflicts(stepper_.start());
   std::vector<Diagnostic> conflicts = at_start;
   for (Diagnostic& later : problem_.find_conflicts(stepper_.end()))
@@ -317,8 +363,10 @@ void Simulation::warn(const RunOptions& options) {
       conflicts.push_back(std::move(later));
   for (Diagnostic& conflict : conflicts)
     warnings_.warning(std::move(conflict.where), std::move(conflict.message));
-  if (communicator_.rank() == 0 && !options.quiet && !warnings_.all().empty())
-    fmt::print(stderr, "{}\n", warnings_.text());
+  const MeshFinder find = [&](const std::string& name) { return meshes_.at(name); };
+  for (Diagnostic& doubt :
+       scene_doubts({scene_, problem_, interfaces_, find, state_.results, stepper_.start(), stepper_.end()}))
+    warnings_.warning(std::move(doubt.where), std::move(doubt.message));
 }
 
 void Simulation::open_outputs(double resume_time) {

@@ -54,6 +54,20 @@ class Simulation {
   /// @throws Error with places in the scene
   Simulation(const Scene& scene, const Registry& registry, const Communicator& communicator);
 
+  /// All that a run does before its first step, without a trace on disk: sets up the state at the start,
+  /// records it once, and finds whatever the scene names. Collective.
+  /// @throws Error with places in the scene
+  void prepare();
+  /// After prepare().
+  /// @throws Error naming the fields that can change without resistance. Collective.
+  void require_held();
+  /// Adds what only the built problem shows to warnings(). Collective.
+  void find_conflicts();
+  /// Of what is legal but hardly meant.
+  [[nodiscard]] const Diagnostics& warnings() const { return warnings_; }
+  /// What has been recorded so far.
+  [[nodiscard]] const Results& results() const { return state_.results; }
+
   /// Runs to the end, or until a signal that a SignalWatch has caught or the time limit interrupts it: then
   /// the state is on disk, with a restart point. Collective.
   /// @throws Error when a step fails for good; then the state is that before the step
@@ -88,7 +102,7 @@ class Simulation {
   [[nodiscard]] std::vector<double> cell_costs(const std::string& mesh) const;
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
-  void warn(const RunOptions& options);
+  void check_output();
   [[nodiscard]] std::filesystem::path choose_restart();
   void announce_start(bool resumed) const;
   void open_outputs(double resume_time);
@@ -132,8 +146,8 @@ class Simulation {
   TimePoint last_point_;   ///< of the last good state
   long last_fields_ = -1;  ///< step number of the fields written last
   long last_restart_ = -1;
-  Diagnostics warnings_;  ///< of what is legal but hardly meant
-  std::string failure_;   ///< why the run ended early, "" if it did not
+  Diagnostics warnings_;
+  std::string failure_;  ///< why the run ended early, "" if it did not
   std::optional<Interruption> interruption_;
 };
 

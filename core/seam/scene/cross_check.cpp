@@ -41,6 +41,22 @@ std::string block_of(const std::string& target) {
   return "";
 }
 
+/// A coupling, say, on an interface that it has nothing to do with.
+void check_types(const Scene& scene, const Registry& registry, const std::vector<NamedPlace>& places,
+                 Diagnostics& diagnostics) {
+  for (const NamedPlace& place : places)
+    for (const auto& [name, values] : entries(scene.root, block_of(place.target))) {
+      if (name != place.name || place.types.empty()) continue;
+      const Registry::Entry* entry = registry.find(place.target, values.type());
+      const bool fits = std::find(place.types.begin(), place.types.end(), values.type()) != place.types.end();
+      if (fits || !entry || entry->plugin != "core") continue;
+      diagnostics.error(place.where,
+                        fmt::format("{}: the {} '{}' ({}) is of type '{}'; what stands here takes {}",
+                                    place.path, place.target, name, values.where().text(), values.type(),
+                                    fmt::join(place.types, ", ")));
+    }
+}
+
 void check_references(const Scene& scene, const std::vector<NamedPlace>& places, Diagnostics& diagnostics) {
   std::map<std::string, std::vector<std::string>> defined;  // by block
   std::set<std::string> keys;                               // block and name
@@ -61,7 +77,10 @@ void check_references(const Scene& scene, const std::vector<NamedPlace>& places,
 
 void warn_unused(const Scene& scene, const std::vector<NamedPlace>& places, Diagnostics& diagnostics) {
   std::set<std::string> used;
-  for (const NamedPlace& place : places) used.insert(place.target + " " + place.name);
+  for (const NamedPlace& place : places)
+    // A probe on an interface makes nothing happen there.
+    if (place.target != "interface" || place.path.starts_with("coupling"))
+      used.insert(place.target + " " + place.name);
   for (const auto& [name, values] : entries(scene.root, "interfaces")) {
     if (used.count("interface " + name) > 0) continue;
     diagnostics.warning(values.where(),
@@ -181,6 +200,7 @@ void cross_check(const Scene& scene, const Registry& registry, const std::vector
   check_time(scene, diagnostics);
   if (!complete) return;
   check_references(scene, places, diagnostics);
+  check_types(scene, registry, places, diagnostics);
   warn_unused(scene, places, diagnostics);
   warn_unused_plugins(scene, loaded, used_plugins, diagnostics);
 }

@@ -16,8 +16,9 @@ struct NamedPlace {
   std::string name;
   std::string path;  ///< "fields.water.boundary[0].on"
   Location where;
-  std::string field;  ///< boundary, region: the field whose mesh is meant, or ""
-  std::string mesh;   ///< boundary, region: the mesh that is meant, or ""
+  std::string field;               ///< boundary, region: the field whose mesh is meant, or ""
+  std::string mesh;                ///< boundary, region: the mesh that is meant, or ""
+  std::vector<std::string> types;  ///< as of Parameter
 };
 
 /// All such places, in the order of the schema.

@@ -66,6 +66,7 @@ class Walker {
       place = field != around.fields.end() ? of_field(field->second) : NamedPlace{};
       place.target = p.target.substr(0, colon);
     }
+    place.types = p.types;
     place.name = name;
     place.path = path;
     place.where = values.where(p.name);

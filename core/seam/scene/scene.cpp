@@ -92,7 +92,13 @@ int early_dimension(const YamlNode& root) {
 void load_plugins(const YamlNode& root, const Scene& scene, PluginHost& host, Registry& registry) {
   for (const std::string& folder : early_words(root, "plugin_folders"))
     host.add_folder(scene.path.parent_path() / folder);
-  host.load(scene.plugins, registry);
+  try {
+    host.load(scene.plugins, registry);
+  } catch (const PluginError& error) {
+    const YamlNode* node = root.find("plugins");
+    if (!node) throw;
+    throw PluginError(node->where(), error.failures());
+  }
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ struct Parameter {
   /// reference, names: what is named ("mesh", "field", "interface", "boundary", "region"; see naming());
   /// typed: the registry's kind
   std::string target;
+  std::vector<std::string> types;     ///< reference: types of the core that what is named may have; none: any
   int size = 0;                       ///< vector: number of entries, 0 for the scene's dimension, -1 for any
   std::shared_ptr<const Schema> sub;  ///< object, list, map
   bool bare_values = false;           ///< map: entries are written as the value of the sub-schema's only key
@@ -102,6 +103,11 @@ struct Parameter {
   /// names by its key `mesh` or `field`; "boundary:KEY" takes the field that its key KEY names instead.
   Parameter& naming(const std::string& what) {
     target = what;
+    return *this;
+  }
+  /// Of the core's types what is named has to have one of these. Types of plugins pass.
+  Parameter& of_types(std::vector<std::string> names) {
+    types = std::move(names);
     return *this;
   }
 };

@@ -75,12 +75,38 @@ void warn_of_covered(const FieldEntry& entry, const Communicator& communicator,
   }
 }
 
+/// Terms on boundaries where every value that they could change is given.
+void warn_of_lost_loads(const FieldEntry& entry, std::vector<Diagnostic>& warnings) {
+  std::set<std::string> named;
+  for (const auto& [boundary, unknowns] : entry.loads) {
+    const PrescribedCondition* last = nullptr;
+    const auto is_given = [&, &on = boundary](const std::string& unknown) {
+      std::set<int> components;
+      for (const PrescribedCondition& condition : entry.conditions)
+        if (condition.boundary == on && condition.unknown == unknown) {
+          components.insert(condition.component);
+          last = &condition;
+        }
+      return static_cast<int>(components.size()) == entry.field->place(unknown).components;
+    };
+    if (unknowns.empty() || !std::ranges::all_of(unknowns, is_given) || !named.insert(boundary).second)
+      continue;
+    warnings.push_back(
+        {Diagnostic::Severity::warning, last->where,
+         fmt::format(
+             "on boundary '{}' of field '{}' all of '{}' is prescribed, so that the other condition there "
+             "(a traction, a pressure, an outflow, a support) has no effect; leave one of them out",
+             boundary, entry.name, fmt::join(unknowns, "', '"))});
+  }
+}
+
 }  // namespace
 
 std::vector<Diagnostic> Problem::find_conflicts(double time) const {
   std::vector<Diagnostic> warnings;
   for (const FieldEntry& entry : fields_) {
     warn_of_covered(entry, communicator_, warnings);
+    warn_of_lost_loads(entry, warnings);
     std::vector<Conflict> all = communicator_.gather_all(conflicts_of(entry, time));
     const auto pair = [](const Conflict& c) { return std::pair(c.first, c.second); };
     std::stable_sort(all.begin(), all.end(),

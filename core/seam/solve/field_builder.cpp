@@ -158,6 +158,9 @@ void FieldBuilder::add_uncut_cell_term(std::shared_ptr<const Term> term, std::ve
 void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                      std::vector<std::string> operands) {
   const int degree = 2 * entry_.field->order() + term->extra_degree();
+  std::set<std::string> tested;
+  for (const Slot& slot : term->signature(dimension()).outputs) tested.insert(operands.at(slot.operand));
+  if (!boundary.empty()) entry_.loads.emplace_back(boundary, std::move(tested));
   boundary_terms_[{boundary, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 

@@ -94,7 +94,7 @@ void place_levels(FieldEntry& entry) {
 void Problem::check_levels() const {
   // What flows in at the boundary of a box and out nowhere is 0.45 and more of the flows through all nodes,
   // on any mesh; what goes together is less than 1e-9 of them. Where nothing flows, rounding is left of what
-  // the pressure does, and what Newton's method has left in the other equations.
+  // the pressure does.
   constexpr double allowed = 1e-4, rounding = 1e-12;
   for (const FieldEntry& entry : fields_)
     for (const LevelCondition& level : entry.levels) {
@@ -108,30 +108,39 @@ void Problem::check_levels() const {
           assembler_->absolute_product([&](const Field& field, const Block& of, int node, int c) {
             return &of == &block && c == level.component ? 0.0 : value(field, of, node, c);
           });
-      double lost = 0;
-      std::vector<double> sums(3, 0.0);  // squares of flows and of all, what is left
+      // The functions of a part add up to 1, its equations to what flows through its boundary.
+      const ConnectedNodes label(*entry.field, level.block);
+      const std::vector<int> parts = label.parts();
+      std::vector<double> sums(3 * parts.size(), 0.0), closed(parts.size(), 0.0);
       for (int node = 0; node < block.space->owned_nodes(); ++node) {
         const int row = assembler_->row(*entry.field, level.block, node, level.component);
+        const auto part = std::ranges::lower_bound(parts, label[node]) - parts.begin();
         if (row < 0) continue;
-        sums[0] += through[row] * through[row];
-        sums[1] += all[row] * all[row];
-        const double left = std::abs(assembler_->full_residual()[row]);
-        if (std::ranges::find(level.nodes, node) != level.nodes.end())
-          lost = std::max(lost, left);
-        else
-          sums[2] += left;
+        sums[3 * part] += assembler_->full_residual()[row];
+        sums[3 * part + 1] += through[row] * through[row];
+        sums[3 * part + 2] += all[row];
+        if (std::ranges::find(level.nodes, node) != level.nodes.end()) closed[part] = 1;
       }
-      lost = communicator_.max(lost);
       communicator_.sum(sums);
-      if (lost <= allowed * std::sqrt(sums[0]) + rounding * std::sqrt(sums[1]) + sums[2]) continue;
-      throw Error(fmt::format(
-          "field '{}': nothing lets out of a closed part of it what is let in: {:.4g} m^{}/s vanish at the "
-          "node "
-          "that holds the level of the {}. Either the velocities given on its boundary and its bodies do not "
-          "balance; or a boundary has to be open; or a body takes it in, and sets the level itself: then the "
-          "level "
-          "is not to be fixed (`fix_pressure: never`)",
-          entry.name, lost, entry.mesh->dimension(), level.unknown));
+      communicator_.sum(closed);
+      double lost = 0;
+      for (std::size_t part = 0; part < parts.size(); ++part) {
+        const double net = std::abs(sums[3 * part]);
+        if (closed[part] > 0 && net > allowed * std::sqrt(sums[3 * part + 1]) + rounding * sums[3 * part + 2])
+          lost = std::max(lost, net);
+      }
+      if (lost == 0) continue;
+      throw Error(entry.conditions.empty() ? Location() : entry.conditions.front().where,
+                  fmt::format("field '{}': nothing lets out of a closed part of it what is let in: {:.4g} "
+                              "m^{}/s vanish at the "
+                              "node "
+                              "that holds the level of the {}. Either the velocities given on its boundary "
+                              "and its bodies do not "
+                              "balance; or a boundary has to be open; or a body takes it in, and sets the "
+                              "level itself: then the "
+                              "level "
+                              "is not to be fixed (`fix_pressure: never`)",
+                              entry.name, lost, entry.mesh->dimension(), level.unknown));
     }
 }
 

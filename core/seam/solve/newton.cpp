@@ -13,8 +13,6 @@ namespace seam {
 namespace {
 
 constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
-/// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.
-constexpr double no_resistance = 1e-14;
 /// In rounding errors of the residual: forces below that are none. A strain of 1e-10 has larger ones.
 constexpr double nothing_acts = 1e6;
 /// Part of a value that counts as its change in the step: in a steady state increments are noise.

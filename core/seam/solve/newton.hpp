@@ -110,6 +110,8 @@ class Newton {
   std::string not_finite_;     ///< what was not in the last state that was tried
 };
 
+/// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.
+inline constexpr double no_resistance = 1e-13;
 /// Names fields of which a connected part can change without more than some resistance in the present matrix,
 /// as a part of what its equations are made of, one line each; "" if there is none. Collective.
 /// @param levels_only looks at constants of scalars alone, as of a pressure

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,8 @@ struct FieldEntry {
   std::vector<Given> given;
   std::vector<Initial> initial;
   std::vector<LevelCondition> levels;
+  /// Of each term on a boundary: its name, and the unknowns on whose equations it acts.
+  std::vector<std::pair<std::string, std::set<std::string>>> loads;
   std::unique_ptr<FieldCut> cut;  ///< null when nothing cuts the field's mesh
   std::vector<FieldQuantity> outputs, integrals;
 };

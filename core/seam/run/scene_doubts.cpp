@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/scene_doubts.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "seam/cut/overlap.hpp"
+
+namespace seam {
+namespace {
+
+class Doubts {
+ public:
+  explicit Doubts(const BuiltScene& built) : built_(built) {}
+
+  std::vector<Diagnostic> find() {
+    look_for_nothing();
+    look_for_overlap();
+    for (const auto& [name, interface] : built_.interfaces) add_body(name, *interface);
+    look_at_pairs();
+    for (const Parameters& coupling : built_.scene.root.list("coupling")) look_at_wall(coupling);
+    return std::move(found_);
+  }
+
+ private:
+  struct Body {
+    std::string name, field;
+    const Interface* interface;
+    const Mesh* mesh;
+  };
+
+  void warn(Location where, std::string message) {
+    found_.push_back({Diagnostic::Severity::warning, std::move(where), std::move(message)});
+  }
+  [[nodiscard]] Location place_of(const std::string& block, const std::string& name) const {
+    for (const auto& [key, parameters] : built_.scene.root.map(block))
+      if (key == name) return parameters.where();
+    return {};
+  }
+
+  void look_for_nothing() {
+    const Communicator& communicator = built_.problem.communicator();
+    for (const auto& [name, parts] : built_.problem.interfaces()) {
+      // Contact finds what is opposite when it comes near.
+      const auto of_first = [&, &first = parts.front()](const FieldEntry& entry) {
+        return entry.field.get() == first.domain->fields().front() && entry.cut;
+      };
+      if (std::ranges::none_of(built_.problem.fields(), of_first)) continue;
+      long long facets = 0;
+      for (const InterfacePart& part : parts) facets += part.domain->size();
+      if (communicator.sum(facets) == 0)
+        warn(place_of("interfaces", name),
+             fmt::format(
+                 "nothing of the interface '{}' lies in its field: what it describes is outside of the "
+                 "mesh, or covers all of it",
+                 name));
+    }
+    for (const FieldEntry& entry : built_.problem.fields()) {
+      const auto& active = entry.field->active_cells();
+      const bool any = std::any_of(active.begin(), active.begin() + entry.mesh->owned_cells(),
+                                   [](char is_active) { return is_active != 0; });
+      if (!communicator.any(any))
+        warn(place_of("fields", entry.name),
+             fmt::format("bodies cover all of the field '{}': it has no unknowns", entry.name));
+    }
+  }
+
+  /// Contact that begins with bodies in each other.
+  void look_for_overlap() {
+    for (const InterfaceMeasure& measure : built_.problem.measures()) {
+      const auto series = built_.first.series.find(measure.interface + ".gap");
+      if (measure.name != "gap" || series == built_.first.series.end()) continue;
+      const double gap = series->second.front();
+      double size = 0;
+      for (const Field* field : built_.problem.interfaces().at(measure.interface).front().domain->fields())
+        for (int c = 0; c < field->mesh().owned_cells(); ++c)
+          size = std::max(size, field->mesh().diameter(c));
+      size = built_.problem.communicator().max(size);
+      if (gap < -0.1 * size)
+        warn(place_of("interfaces", measure.interface),
+             fmt::format("bodies overlap by {:.3g} m at the start, where '{}' is to keep them apart", -gap,
+                         measure.interface));
+    }
+  }
+
+  void add_body(const std::string& name, const Interface& interface) {
+    const std::string field = interface.fields().front();
+    for (const FieldEntry& entry : built_.problem.fields())
+      // In parallel nobody holds the whole mesh.
+      if (entry.name == field && entry.cut && built_.problem.communicator().size() == 1)
+        bodies_.push_back({name, field, &interface, entry.mesh.get()});
+  }
+  [[nodiscard]] std::optional<Surface> surface(const Body& body, double time) const {
+    return body.interface->body({*body.mesh, built_.meshes}, time);
+  }
+
+  void look_at_pairs() {
+    std::vector<std::optional<Surface>> surfaces;
+    for (const Body& body : bodies_) surfaces.push_back(surface(body, built_.start));
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
+        if (!surfaces[i] || !surfaces[j] || bodies_[i].field != bodies_[j].field) continue;
+        if (const auto at = vertex_inside(*surfaces[i], *surfaces[j]))
+          warn(place_of("interfaces", bodies_[j].name),
+               fmt::format(
+                   "the bodies of '{}' and '{}' overlap, as at ({:.6g}): they count as one where they do, "
+                   "and if one moves, it goes through the other",
+                   bodies_[i].name, bodies_[j].name, fmt::join(*at, ", ")));
+      }
+  }
+
+  /// A wall that moves one way and says another velocity lets fluid through.
+  void look_at_wall(const Parameters& coupling) {
+    if (coupling.type() != "fluid_wall" || !coupling.has("velocity")) return;
+    const auto body = std::ranges::find(bodies_, coupling.text("on"), &Body::name);
+    if (body == bodies_.end()) return;
+    const auto& velocity = coupling.vector_expression("velocity");
+    constexpr int times = 5;
+    const double span = built_.end - built_.start, step = 1e-6 * span;
+    for (int k = 0; k < times; ++k) {
+      const double t = built_.start + (k + 0.5) / times * span;
+      const auto before = surface(*body, t - step), after = surface(*body, t + step);
+      if (!before || !after || before->points.size() != after->points.size()) return;
+      const std::size_t dim = before->dimension;
+      double largest = 0, most = 0;
+      for (std::size_t v = 0; v < before->points.size(); v += dim) {
+        double rate = 0, difference = 0;
+        std::vector<double> x(dim);
+        for (std::size_t d = 0; d < dim; ++d) x[d] = 0.5 * (before->points[v + d] + after->points[v + d]);
+        for (std::size_t d = 0; d < dim; ++d) {
+          const double moved = (after->points[v + d] - before->points[v + d]) / (2 * step);
+          rate += moved * moved;
+          difference += std::pow(velocity[d](x.data(), static_cast<int>(dim), t) - moved, 2);
+        }
+        largest = std::max(largest, std::sqrt(rate));
+        most = std::max(most, std::sqrt(difference));
+      }
+      if (largest == 0 || most < 0.1 * largest) continue;
+      warn(coupling.where("velocity"),
+           fmt::format(
+               "at t = {:.4g} the body of '{}' moves by up to {:.4g} m/s, and `velocity` differs from that "
+               "by up to {:.4g} m/s: the fluid does not follow the wall",
+               t, body->name, largest, most));
+      return;
+    }
+  }
+
+  const BuiltScene& built_;
+  std::vector<Body> bodies_;
+  std::vector<Diagnostic> found_;
+};
+
+}  // namespace
+
+std::vector<Diagnostic> scene_doubts(const BuiltScene& built) { return Doubts(built).find(); }
+
+}  // namespace seam
