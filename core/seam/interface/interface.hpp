@@ -100,7 +100,8 @@ class Coupling {
     /// One for each part of the interface that counts; what they make up together is recorded.
     std::vector<SideTerm> quantities;
     /// The L2 norm over the interface, as of what vanishes where the conditions hold exactly; or, of a
-    /// scalar, the integral or the extreme value at an integration point (infinite where there is none).
+    /// scalar, the integral or the extreme value at an integration point (where there is none: the least is
+    /// infinite, the greatest 0).
     MeasureOf of = MeasureOf::norm;
   };
   [[nodiscard]] virtual std::vector<Measure> measures(const CouplingSides& sides) const {

@@ -17,7 +17,6 @@ class CutOutput {
   /// @param resume_time as for PieceSeries
   CutOutput(Problem& problem, ResultsFolder& folder, double resume_time);
   /// True when some field is cut.
-  [[nodiscard]] bool has_fields() const { return !fields_.empty(); }
   /// Collective.
   void write(long step_number, const TimePoint& at);
 

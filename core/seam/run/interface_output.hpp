@@ -19,7 +19,6 @@ class InterfaceOutput {
  public:
   InterfaceOutput(const Problem& problem, ResultsFolder& folder);
   /// True when some coupling measures something.
-  [[nodiscard]] bool has_interfaces() const { return !interfaces_.empty(); }
   /// Collective. @throws FileError on all ranks
   void write(long step_number, const TimePoint& at) const;
 

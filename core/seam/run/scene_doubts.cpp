@@ -113,10 +113,16 @@ class Doubts {
 
   /// A wall that moves one way and says another velocity lets fluid through.
   void look_at_wall(const Parameters& coupling) {
-    if (coupling.type() != "fluid_wall" || !coupling.has("velocity")) return;
+    if (!coupling.has("velocity")) return;
     const auto body = std::ranges::find(bodies_, coupling.text("on"), &Body::name);
     if (body == bodies_.end()) return;
-    const auto& velocity = coupling.vector_expression("velocity");
+    const std::vector<Expression>* given = nullptr;
+    try {
+      given = &coupling.vector_expression("velocity");
+    } catch (const std::logic_error&) {
+      return;  // something else of this name
+    }
+    const std::vector<Expression>& velocity = *given;
     constexpr int times = 5;
     const double span = built_.end - built_.start, step = 1e-6 * span;
     for (int k = 0; k < times; ++k) {

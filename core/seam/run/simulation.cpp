@@ -65,6 +65,7 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
       stepper_);
   for (const auto& [name, parameters] : scene.root.object("output").map("probes"))
     probes_.emplace_back(name, parameters, problem_);
+  check_output();
   timings_.setup = watch.seconds();
 }
 
@@ -288,7 +289,6 @@ void Simulation::prepare() {
   problem_.assembler().assemble(at, false);
   append_row(at);
   measure_errors();
-  check_output();
 }
 
 void Simulation::require_held() {
@@ -301,7 +301,8 @@ void Simulation::require_held() {
 
 void Simulation::check_output() {
   const Parameters& output = scene_.root.object("output");
-  if (output.boolean("interfaces") && problem_.measures().empty())
+  if (output.boolean("interfaces") &&
+      std::ranges::all_of(problem_.measures(), [](const InterfaceMeasure& m) { return m.shares.empty(); }))
     throw Error(
         output.where("interfaces"),
         "interfaces: no coupling measures anything on its interface, so that there is nothing to write");
@@ -372,17 +373,8 @@ void Simulation::find_conflicts() {
 void Simulation::open_outputs(double resume_time) {
   const Parameters& output = scene_.root.object("output");
   if (output.boolean("fields")) fields_ = std::make_unique<FieldOutput>(problem_, *folder_, resume_time);
-  if (output.boolean("interfaces")) {
-    points_ = std::make_unique<InterfaceOutput>(problem_, *folder_);
-    if (!points_->has_interfaces())
-      throw Error(output.where("interfaces"),
-                  "no coupling measures anything on its interface, so that there is nothing to write");
-  }
-  if (!output.boolean("cut")) return;
-  cut_ = std::make_unique<CutOutput>(problem_, *folder_, resume_time);
-  if (!cut_->has_fields())
-    throw Error(output.where("cut"),
-                "no interface cuts a body out of a field, so that there is no cut to write");
+  if (output.boolean("interfaces")) points_ = std::make_unique<InterfaceOutput>(problem_, *folder_);
+  if (output.boolean("cut")) cut_ = std::make_unique<CutOutput>(problem_, *folder_, resume_time);
 }
 
 const Results& Simulation::run(const RunOptions& options) {
