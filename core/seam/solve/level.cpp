@@ -94,19 +94,16 @@ void place_levels(FieldEntry& entry) {
 void Problem::check_levels() const {
   // What flows in at the boundary of a box and out nowhere is 0.45 and more of the flows through all nodes,
   // on any mesh; what goes together is less than 1e-9 of them. Where nothing flows, rounding is left of what
-  // the pressure does.
+  // stands in the equations besides, as the loads of a stabilisation.
   constexpr double allowed = 1e-4, rounding = 1e-12;
   for (const FieldEntry& entry : fields_)
     for (const LevelCondition& level : entry.levels) {
       const Block& block = entry.field->blocks()[level.block];
       if (!communicator_.any(!level.nodes.empty())) continue;
-      const auto value = [&](const Field&, const Block& of, int node, int c) {
-        return of.now.value[static_cast<std::size_t>(node) * of.size + c];
-      };
-      const std::vector<double> all = assembler_->absolute_product(value);
       const std::vector<double> through =
-          assembler_->absolute_product([&](const Field& field, const Block& of, int node, int c) {
-            return &of == &block && c == level.component ? 0.0 : value(field, of, node, c);
+          assembler_->absolute_product([&](const Field&, const Block& of, int node, int c) {
+            const bool is_level = &of == &block && c == level.component;
+            return is_level ? 0.0 : of.now.value[static_cast<std::size_t>(node) * of.size + c];
           });
       // The functions of a part add up to 1, its equations to what flows through its boundary.
       const ConnectedNodes label(*entry.field, level.block);
@@ -118,7 +115,7 @@ void Problem::check_levels() const {
         if (row < 0) continue;
         sums[3 * part] += assembler_->full_residual()[row];
         sums[3 * part + 1] += through[row] * through[row];
-        sums[3 * part + 2] += all[row];
+        sums[3 * part + 2] += assembler_->magnitude()[row];
         if (std::ranges::find(level.nodes, node) != level.nodes.end()) closed[part] = 1;
       }
       communicator_.sum(sums);
