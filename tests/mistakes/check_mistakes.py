@@ -5,8 +5,8 @@
   tests/mistakes/check_mistakes.py build/bin/seam          lists what is not found
   tests/mistakes/check_mistakes.py build/bin/seam --all    lists all, with their messages
 
-Found is what an error or a warning tells with file and line, naming what is wrong. Exit code 1 when less than 95 % are found by
-`seam check`, or one neither by it nor by `seam run`.
+Found is what an error or a warning tells with file and line, naming what is wrong. Exit code 1 when one is not found by `seam check`:
+what is found stays found.
 """
 
 import argparse
@@ -20,7 +20,6 @@ import tempfile
 from mistakes import MISTAKES
 
 HERE = pathlib.Path(__file__).resolve().parent
-NEEDED = 0.95
 
 
 def run(command, folder):
@@ -71,7 +70,7 @@ def main():
         print(f"{kind:10}", ", ".join(f"{by_kind[kind, where]} by {where}" for where in ("check", "run", "never")))
     print(f"{total} mistakes: {count['check']} found by check ({100 * count['check'] / total:.1f} %), "
           f"{count['run']} by run, {count['never']} never")
-    return 0 if count["check"] >= NEEDED * total and count["never"] == 0 else 1
+    return 0 if count["check"] == total else 1
 
 
 if __name__ == "__main__":

@@ -177,6 +177,20 @@ std::vector<double> Assembler::absolute_product(const PerUnknown& size) const {
   return sum_rows(size, [](double entry, double number) { return std::abs(entry * number); });
 }
 
+std::vector<double> Assembler::largest_by_kind(const std::vector<double>& of_rows) const {
+  std::vector<double> largest;
+  for (const NumberedBlock& b : blocks_) {
+    const std::size_t kind = largest.size();
+    largest.resize(kind + b.block->size, 0.0);
+    for (int node = 0; node < b.block->space->owned_nodes(); ++node)
+      for (int c = 0; c < b.block->size && b.node_index[node] >= 0; ++c)
+        largest[kind + c] =
+            std::max(largest[kind + c], std::abs(of_rows[graph_.node(b.node_index[node]).first + c]));
+  }
+  communicator_.max(largest);
+  return largest;
+}
+
 std::vector<double> Assembler::rounding() const {
   constexpr double spacing = std::numeric_limits<double>::epsilon();
   std::map<const Block*, std::vector<double>> added;  // to the size of each component of a block

@@ -44,6 +44,9 @@ class Assembler {
   /// The last matrix, each entry by its size, times sizes of the unknowns, [owned row]. What other ranks
   /// alone know of is left out.
   [[nodiscard]] std::vector<double> absolute_product(const PerUnknown& size) const;
+  /// The largest size of a number in each kind of equations, which have units of their own: the components of
+  /// each block. Collective. @param of_rows [owned row]
+  [[nodiscard]] std::vector<double> largest_by_kind(const std::vector<double>& of_rows) const;
 
   [[nodiscard]] const Matrix& matrix() const { return matrix_; }
   /// [owned row]; zero where the unknown is prescribed.

@@ -10,6 +10,8 @@ namespace seam {
 namespace {
 
 constexpr double least_part = 0.1;  ///< of the largest state so far
+/// Of what stands in the equations: an unknown with less is rounding, and so is its error.
+constexpr double next_to_nothing = 1e-10;
 
 /// Of a cell's volume, that a part of it has.
 double share(const Field& field, int cell, int part) {
@@ -44,9 +46,22 @@ double time_error(const Field& field, int number, int first, int components, dou
   return largest > 0 ? std::sqrt(sums[0]) / std::max(size, least_part * largest) : 0.0;
 }
 
+/// Whether an unknown has a part in any kind of equations.
+bool matters(const Assembler& assembler, const Block& block, int first, int components) {
+  const std::vector<double> share = assembler.largest_by_kind(
+      assembler.absolute_product([&](const Field&, const Block& of, int node, int c) {
+        const bool is_of_it = &of == &block && c >= first && c < first + components;
+        return is_of_it ? block.now.value[static_cast<std::size_t>(node) * block.size + c] : 0.0;
+      }));
+  const std::vector<double> all = assembler.largest_by_kind(assembler.magnitude());
+  for (std::size_t kind = 0; kind < all.size(); ++kind)
+    if (share[kind] > next_to_nothing * all[kind]) return true;
+  return false;
+}
+
 }  // namespace
 
-double time_error(const Problem& problem, double step, std::vector<double>& largest) {
+double time_error(Problem& problem, double step, std::vector<double>& largest) {
   double worst = 0;
   std::size_t number = 0;
   for (const FieldEntry& entry : problem.fields())
@@ -54,7 +69,9 @@ double time_error(const Problem& problem, double step, std::vector<double>& larg
     for (int b = 0; b < static_cast<int>(entry.field->blocks().size()); ++b)
       for (int first = 0; const int components : entry.field->blocks()[b].components) {
         if (largest.size() == number) largest.push_back(0);
-        worst = std::max(worst, time_error(*entry.field, b, first, components, step, largest[number++]));
+        const double error = time_error(*entry.field, b, first, components, step, largest[number++]);
+        if (error > worst && matters(problem.assembler(), entry.field->blocks()[b], first, components))
+          worst = error;
         first += components;
       }
   return worst;

@@ -61,45 +61,27 @@ void add_modes(const FieldEntry& entry, const Unknown& unknown, const ConnectedN
 /// kinds the one that resists most. Rounding leaves some 1e-16. Collective.
 std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes) {
   const Assembler& assembler = problem.assembler();
-  int kinds = 0;
-  for (const FieldEntry& entry : problem.fields())
-    for (const Block& block : entry.field->blocks()) kinds += block.size;
-  // action(kind, row) for each owned row; kinds of equations are counted through.
-  const auto each_row = [&](const auto& action) {
-    int kind = 0;
-    for (const FieldEntry& entry : problem.fields())
-      for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
-        const Block& block = entry.field->blocks()[b];
-        for (int node = 0; node < block.space->owned_nodes(); ++node)
-          if (const int row = assembler.row(*entry.field, static_cast<int>(b), node, 0); row >= 0)
-            for (int c = 0; c < block.size; ++c) action(*entry.field, block, node, c, kind + c, row + c);
-        kind += block.size;
-      }
-  };
   std::vector vectors(modes.size(), std::vector<double>(assembler.matrix().rows, 0.0));
-  for (std::size_t m = 0; m < modes.size(); ++m)
-    each_row([&](const Field& field, const Block& block, int node, int c, int, int row) {
-      vectors[m][row] = modes[m].at(field, block, node, c);
-    });
-  const std::vector<std::vector<double>> products = multiply(assembler.matrix(), vectors);
-  std::vector<double> left(modes.size() * kinds, 0.0), size(left);
   for (std::size_t m = 0; m < modes.size(); ++m) {
-    const std::vector<double> sizes =
+    const Field& field = *modes[m].entry->field;
+    const Block& block = *modes[m].block;
+    const int number = field.place(modes[m].unknown).block;
+    for (int node = 0; node < block.space->owned_nodes(); ++node)
+      for (int c = 0; c < block.size; ++c)
+        if (const int row = assembler.row(field, number, node, c); row >= 0)
+          vectors[m][row] = modes[m].at(field, block, node, c);
+  }
+  const std::vector<std::vector<double>> products = multiply(assembler.matrix(), vectors);
+  std::vector<double> result(modes.size(), 0.0);
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    const std::vector<double> left = assembler.largest_by_kind(products[m]);
+    const std::vector<double> size = assembler.largest_by_kind(
         assembler.absolute_product([&](const Field& field, const Block& block, int node, int c) {
           return modes[m].at(field, block, node, c);
-        });
-    each_row([&](const Field&, const Block&, int, int, int kind, int row) {
-      double& most = left[m * kinds + kind];
-      most = std::max(most, std::abs(products[m][row]));
-      double& largest = size[m * kinds + kind];
-      largest = std::max(largest, sizes[row]);
-    });
+        }));
+    for (std::size_t kind = 0; kind < left.size(); ++kind)
+      if (size[kind] > 0) result[m] = std::max(result[m], left[kind] / size[kind]);
   }
-  problem.communicator().max(left);
-  problem.communicator().max(size);
-  std::vector<double> result(modes.size(), 0.0);
-  for (std::size_t k = 0; k < left.size(); ++k)
-    if (size[k] > 0) result[k / kinds] = std::max(result[k / kinds], left[k] / size[k]);
   return result;
 }
 
