@@ -8,6 +8,7 @@
 
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
+#include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
@@ -82,10 +83,15 @@ void Simulation::build_fields(const Registry& registry) {
           fmt::format("the distributed mesh '{}' ({} cells)", mesh, meshes_.at(mesh)->cell_count()),
           parameters.where(),
           [&] { return std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh)); });
-    needing_memory(fmt::format("the unknowns of the field '{}'", name), parameters.where(),
-                   [&, &field = name, &of_field = parameters] {
-                     problem_.add_field(field, meshes[mesh], registry.create<Physics>("field", of_field));
-                   });
+    needing_memory(
+        fmt::format("the unknowns of the field '{}'", name), parameters.where(),
+        [&, &field = name, &of_field = parameters] {
+          auto physics = registry.create<Physics>("field", of_field);
+          const std::string plugin = plugin_of(*physics);
+          call_plugin(
+              of_field.where(), [&] { return fmt::format("field '{}'{}", field, plugin); },
+              [&] { problem_.add_field(field, meshes[mesh], std::move(physics), of_field.where()); });
+        });
   }
 }
 
@@ -207,8 +213,13 @@ void Simulation::build_couplings(const Registry& registry) {
   std::map<std::string, Built> interfaces;
   for (const auto& [name, interface] : interfaces_) {
     Setup setup(*this, interface->fields(), extra_degree[name]);
-    auto parts = needing_memory(fmt::format("the interface '{}'", name), place_of(scene_, "interfaces", name),
-                                [&, &of = interface] { return of->build(setup); });
+    const Location where = place_of(scene_, "interfaces", name);
+    auto parts =
+        needing_memory(fmt::format("the interface '{}'", name), where, [&, &called = name, &of = interface] {
+          return call_plugin(
+              where, [&] { return fmt::format("interface '{}'{}", called, plugin_of(*of)); },
+              [&] { return of->build(setup); });
+        });
     interfaces[name] = {std::move(parts), setup.sides};
     problem_.name_interface(name, interfaces[name].parts);
   }
@@ -219,10 +230,14 @@ void Simulation::build_couplings(const Registry& registry) {
   for (std::size_t k = 0; k < couplings.size(); ++k) couplings[k].second->check_beside(neighbours, k);
   for (const auto& [parameters, coupling] : couplings) {
     const Built& built = interfaces.at(parameters.text("on"));
-    try {
+    const auto describe = [&, &of = parameters, &asked = coupling] {
+      return fmt::format("coupling '{}' on '{}'{}", of.type(), of.text("on"), plugin_of(*asked));
+    };
+    call_plugin(parameters.where(), describe, [&, &parameters = parameters, &coupling = coupling] {
       CouplingSides sides{{built.sides.begin(), built.sides.end()}, std::vector<int>(built.sides.size(), 0)};
       const auto bind = [&](const Coupling::SideTerm& term) {
-        BoundTerm bound{term.term, term.operands, {-1, -1}, regions_of(term, sides)};
+        if (!term.term) throw PluginFault(parameters.where(), describe() + " gives a term that is null");
+        BoundTerm bound{term.term, term.operands, {-1, -1}, regions_of(term, sides), parameters.where()};
         for (std::size_t k = 0; k < term.constants.size(); ++k) {
           const auto& [side, constant] = term.constants[k];
           bound.constants.at(k) = built.part(term.part)->add_constant(side, constant, sides.regions.at(side));
@@ -246,9 +261,7 @@ void Simulation::build_couplings(const Registry& registry) {
       } while (next_regions(sides));
       for (InterfaceMeasure& measure : measures) problem_.add_measure(std::move(measure));
       for (auto& [part, of_part] : terms) problem_.add_coupling(built.part(part), std::move(of_part));
-    } catch (const Error& error) {
-      throw Error(parameters.where(), error.what());
-    }
+    });
   }
 }
 
