@@ -84,7 +84,10 @@ class CellUnion {
   [[nodiscard]] double thickness(const Convex& part) const;
   [[nodiscard]] bool is_wet_part(const Convex& part, const Places& places) const;
   std::unique_ptr<Node> divide_at(const Node& node, const Convex& part, std::vector<Fragment> fragments,
-                                  const Places& before, bool in_front);
+                                  const Places& before, bool in_front, const std::vector<Plane>& walls);
+  std::unique_ptr<Node> divide_at_walls(const Node& node, const Convex& part, std::vector<Fragment> fragments,
+                                        const Places& covered, const Places& uncovered,
+                                        const std::vector<Plane>& walls, std::size_t wall);
   std::unique_ptr<Node> divide_layer(const Vector& normal, const Convex& part,
                                      std::vector<Fragment> fragments, const std::vector<Polygon>& covers,
                                      std::size_t cover, std::size_t edge, const Places& covered,
@@ -170,6 +173,7 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
     nodes_.push_back(node.get());
     node->plane = plane;
     std::vector<Fragment> before, behind;
+    std::vector<Plane> on_front, on_back;  // of fragments that end on the plane, on either side of it
     const auto number = chosen - fragments.begin();
     for (Fragment& f : fragments) {
       // The chosen one lies in its own plane, whatever rounding has made of a narrow one: so this comes to an
@@ -189,13 +193,15 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
           node->in_plane.push_back(std::move(f));
         continue;
       }
+      if (low > -resolution_) on_front.push_back(plane_of(f));
+      if (high < resolution_) on_back.push_back(plane_of(f));
       Fragment above{{}, f.piece}, below{{}, f.piece};
       split(f.corner, plane, above.corner, below.corner);
       if (high > resolution_ && !above.corner.empty()) before.push_back(std::move(above));
       if (low < -resolution_ && !below.corner.empty()) behind.push_back(std::move(below));
     }
-    node->front = divide_at(*node, front, std::move(before), places, true);
-    node->back = divide_at(*node, back, std::move(behind), places, false);
+    node->front = divide_at(*node, front, std::move(before), places, true, on_back);
+    node->back = divide_at(*node, back, std::move(behind), places, false, on_front);
     return node;
   }
   node->part = part;
@@ -205,16 +211,43 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
 
 std::unique_ptr<Node> CellUnion::divide_at(const Node& node, const Convex& part,
                                            std::vector<Fragment> fragments, const Places& before,
-                                           bool in_front) {
+                                           bool in_front, const std::vector<Plane>& walls) {
   const Places places = places_after(node, fragments, before, in_front);
   if (volume(part) > smallest_part * cell_volume_) return divide(part, std::move(fragments), places);
   // A facet that ends on this layer at the cell's border covers only a part of it, and the facets round the
   // corner are too narrow here to tell which.
-  std::vector<Polygon> covers;
-  for (const Fragment& f : node.in_plane) covers.push_back(f.corner);
   Places uncovered = places;
   for (const Fragment& f : node.in_plane) uncovered[cell_.pieces[f.piece].body] = Place::unknown;
-  return divide_layer(node.plane.normal, part, std::move(fragments), covers, 0, 0, places, uncovered);
+  return divide_at_walls(node, part, std::move(fragments), places, uncovered, walls, 0);
+}
+
+/// Divides a thin layer along the fragments that reach it from beyond the plane, of other bodies, too: they
+/// go on through it and are too narrow there to be fragments themselves.
+std::unique_ptr<Node> CellUnion::divide_at_walls(const Node& node, const Convex& part,
+                                                 std::vector<Fragment> fragments, const Places& covered,
+                                                 const Places& uncovered, const std::vector<Plane>& walls,
+                                                 std::size_t wall) {
+  if (wall == walls.size()) {
+    std::vector<Polygon> covers;
+    for (const Fragment& f : node.in_plane) covers.push_back(f.corner);
+    return divide_layer(node.plane.normal, part, std::move(fragments), covers, 0, 0, covered, uncovered);
+  }
+  Convex front, back;
+  split(part, walls[wall], inner, front, back);
+  if (front.faces.empty() || back.faces.empty())
+    return divide_at_walls(node, part, std::move(fragments), covered, uncovered, walls, wall + 1);
+  auto result = std::make_unique<Node>();
+  result->plane = walls[wall];
+  std::vector<Fragment> before, behind;
+  for (Fragment& f : fragments) {
+    Fragment above{{}, f.piece}, below{{}, f.piece};
+    split(f.corner, walls[wall], above.corner, below.corner);
+    if (is_wide(above.corner)) before.push_back(std::move(above));
+    if (is_wide(below.corner)) behind.push_back(std::move(below));
+  }
+  result->front = divide_at_walls(node, front, std::move(before), covered, uncovered, walls, wall + 1);
+  result->back = divide_at_walls(node, back, std::move(behind), covered, uncovered, walls, wall + 1);
+  return result;
 }
 
 /// Divides a thin layer along the edges of the polygons that cover it.
