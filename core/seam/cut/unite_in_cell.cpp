@@ -84,10 +84,10 @@ class CellUnion {
   [[nodiscard]] double thickness(const Convex& part) const;
   [[nodiscard]] bool is_wet_part(const Convex& part, const Places& places) const;
   std::unique_ptr<Node> divide_at(const Node& node, const Convex& part, std::vector<Fragment> fragments,
-                                  const Places& before, bool in_front, const std::vector<Plane>& walls);
+                                  const Places& before, bool in_front, const std::vector<Fragment>& walls);
   std::unique_ptr<Node> divide_at_walls(const Node& node, const Convex& part, std::vector<Fragment> fragments,
                                         const Places& covered, const Places& uncovered,
-                                        const std::vector<Plane>& walls, std::size_t wall);
+                                        const std::vector<Fragment>& walls, std::size_t wall);
   std::unique_ptr<Node> divide_layer(const Vector& normal, const Convex& part,
                                      std::vector<Fragment> fragments, const std::vector<Polygon>& covers,
                                      std::size_t cover, std::size_t edge, const Places& covered,
@@ -173,7 +173,7 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
     nodes_.push_back(node.get());
     node->plane = plane;
     std::vector<Fragment> before, behind;
-    std::vector<Plane> on_front, on_back;  // of fragments that end on the plane, on either side of it
+    std::vector<Fragment> on_front, on_back;  // of fragments that end on the plane, on either side of it
     const auto number = chosen - fragments.begin();
     for (Fragment& f : fragments) {
       // The chosen one lies in its own plane, whatever rounding has made of a narrow one: so this comes to an
@@ -193,8 +193,8 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
           node->in_plane.push_back(std::move(f));
         continue;
       }
-      if (low > -resolution_) on_front.push_back(plane_of(f));
-      if (high < resolution_) on_back.push_back(plane_of(f));
+      if (low > -resolution_) on_front.push_back(f);
+      if (high < resolution_) on_back.push_back(f);
       Fragment above{{}, f.piece}, below{{}, f.piece};
       split(f.corner, plane, above.corner, below.corner);
       if (high > resolution_ && !above.corner.empty()) before.push_back(std::move(above));
@@ -211,7 +211,7 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
 
 std::unique_ptr<Node> CellUnion::divide_at(const Node& node, const Convex& part,
                                            std::vector<Fragment> fragments, const Places& before,
-                                           bool in_front, const std::vector<Plane>& walls) {
+                                           bool in_front, const std::vector<Fragment>& walls) {
   const Places places = places_after(node, fragments, before, in_front);
   if (volume(part) > smallest_part * cell_volume_) return divide(part, std::move(fragments), places);
   // A facet that ends on this layer at the cell's border covers only a part of it, and the facets round the
@@ -225,23 +225,36 @@ std::unique_ptr<Node> CellUnion::divide_at(const Node& node, const Convex& part,
 /// go on through it and are too narrow there to be fragments themselves.
 std::unique_ptr<Node> CellUnion::divide_at_walls(const Node& node, const Convex& part,
                                                  std::vector<Fragment> fragments, const Places& covered,
-                                                 const Places& uncovered, const std::vector<Plane>& walls,
+                                                 const Places& uncovered, const std::vector<Fragment>& walls,
                                                  std::size_t wall) {
   if (wall == walls.size()) {
     std::vector<Polygon> covers;
     for (const Fragment& f : node.in_plane) covers.push_back(f.corner);
     return divide_layer(node.plane.normal, part, std::move(fragments), covers, 0, 0, covered, uncovered);
   }
-  Convex front, back;
-  split(part, walls[wall], inner, front, back);
-  if (front.faces.empty() || back.faces.empty())
+  const Plane plane = plane_of(walls[wall]);
+  const int body = cell_.pieces[walls[wall].piece].body;
+  const bool has_cover = std::any_of(node.in_plane.begin(), node.in_plane.end(),
+                                     [&](const Fragment& f) { return cell_.pieces[f.piece].body == body; });
+  double low = 0, high = 0;
+  for (const Convex::Face& face : part.faces)
+    for (const Vector& x : face.corner) {
+      low = std::min(low, plane.height(x));
+      high = std::max(high, plane.height(x));
+    }
+  // One on the layer's own rim divides nothing.
+  if (has_cover || low > -25 * resolution_ || high < 25 * resolution_)
     return divide_at_walls(node, part, std::move(fragments), covered, uncovered, walls, wall + 1);
+  Convex front, back;
+  split(part, plane, node_origin(nodes_.size()), front, back);
   auto result = std::make_unique<Node>();
-  result->plane = walls[wall];
+  nodes_.push_back(result.get());
+  result->plane = plane;
+  result->in_plane = {walls[wall]};
   std::vector<Fragment> before, behind;
   for (Fragment& f : fragments) {
     Fragment above{{}, f.piece}, below{{}, f.piece};
-    split(f.corner, walls[wall], above.corner, below.corner);
+    split(f.corner, plane, above.corner, below.corner);
     if (is_wide(above.corner)) before.push_back(std::move(above));
     if (is_wide(below.corner)) behind.push_back(std::move(below));
   }
