@@ -173,7 +173,7 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
     nodes_.push_back(node.get());
     node->plane = plane;
     std::vector<Fragment> before, behind;
-    std::vector<Fragment> on_front, on_back;  // of fragments that end on the plane, on either side of it
+    std::vector<Fragment> on_front, on_back;  // those that end on the plane, along an edge of theirs
     const auto number = chosen - fragments.begin();
     for (Fragment& f : fragments) {
       // The chosen one lies in its own plane, whatever rounding has made of a narrow one: so this comes to an
@@ -193,8 +193,11 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
           node->in_plane.push_back(std::move(f));
         continue;
       }
-      if (low > -resolution_) on_front.push_back(f);
-      if (high < resolution_) on_back.push_back(f);
+      const auto touching = std::count_if(f.corner.begin(), f.corner.end(), [&](const Vector& x) {
+        return std::abs(plane.height(x)) <= resolution_;
+      });
+      if (low > -resolution_ && touching > 1) on_front.push_back(f);
+      if (high < resolution_ && touching > 1) on_back.push_back(f);
       Fragment above{{}, f.piece}, below{{}, f.piece};
       split(f.corner, plane, above.corner, below.corner);
       if (high > resolution_ && !above.corner.empty()) before.push_back(std::move(above));
