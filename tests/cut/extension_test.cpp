@@ -21,9 +21,10 @@ double linear(std::size_t level, int component, const double* x, int dim) {
 }  // namespace
 
 TEST_CASE("all levels of a state, old ones included, go on to new nodes as they are", "[ranks]") {
-  const auto [type, order] = GENERATE(table<CellType, int>(
+  const auto [cell_type, polynomial] = GENERATE(table<CellType, int>(
       {{CellType::quadrilateral, 1}, {CellType::triangle, 2}, {CellType::hexahedron, 1}}));
-  const int dim = type == CellType::hexahedron ? 3 : 2;
+  const CellType type = cell_type;
+  const int order = polynomial, dim = type == CellType::hexahedron ? 3 : 2;
   const Mesh mesh = grid(type, {5, 4, dim == 3 ? 3 : 0}, rotated(dim, 0.3, {1, 1.2, 1}, {0, 0, 0}));
   Field field("water", mesh, {{"v", 2, order, 1, ""}});
   field.occupy(std::vector<char>(mesh.cells(), 1));
