@@ -67,6 +67,30 @@ TEST_CASE("a ray meets the side of a body that faces it, from outside and from w
   }
 }
 
+TEST_CASE("of several surfaces that face a ray the nearest counts, ahead or behind") {
+  // Two edges across the ray, their outsides towards it, as of two thin bodies one of which is entered.
+  const auto edges_at = [](double first, double second) {
+    Surface surface;
+    for (const double x : {first, second}) {
+      const int n = static_cast<int>(surface.points.size()) / 2;
+      surface.points.insert(surface.points.end(), {x, 1, x, -1});
+      surface.facets.insert(surface.facets.end(), {n, n + 1});
+    }
+    return FacetSearch(surface);
+  };
+  const double x[] = {0, 0.1}, direction[] = {1, 0};
+  struct Case {
+    double first, second, nearest;
+  };
+  for (const Case& c : {Case{-0.4, 0.1, 0.1}, {-0.1, 0.4, -0.1}, {0.2, 0.3, 0.2}, {-0.3, -0.2, -0.2}})
+    for (const bool swapped : {false, true}) {
+      const auto hit =
+          edges_at(swapped ? c.second : c.first, swapped ? c.first : c.second).find(x, direction, 0.5, 0.5);
+      REQUIRE(hit);
+      CHECK(hit->gap == Approx(c.nearest));
+    }
+}
+
 TEST_CASE("no ray slips through between facets") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);

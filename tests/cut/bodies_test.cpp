@@ -211,3 +211,23 @@ TEST_CASE("Broken surfaces are refused with a reason", "[cut][bodies]") {
   s.facets.clear();
   CHECK_THAT(message(s), Catch::Contains("body 1: its surface has no facet"));
 }
+
+TEST_CASE("What a surface runs round the wrong way is no part of its body", "[cut][bodies]") {
+  // A figure of eight: its left half is counter-clockwise, its right half clockwise.
+  const Surface eight = polygon({{.2, .3, 0}, {.8, .7, 0}, {.8, .3, 0}, {.2, .7, 0}});
+  const double half = .5 * .4 * .3;
+  for (const CellType type : {CellType::quadrilateral, CellType::triangle})
+    for (const int n : {3, 9}) {
+      const Mesh mesh = grid(type, {n, n, 0}, unmoved());
+      CutMesh cut(mesh);
+      INFO(name(type) << ", " << n);
+      cut.cut(std::vector{eight});
+      CHECK(total_fluid(cut) == Approx(1 - half).epsilon(1e-11));
+      // Beside a body that covers some of both halves.
+      cut.cut(std::vector{eight, rectangle(.1, .1, .9, .35)});
+      const double slope = .4 / .6,
+                   low = .05;  // each half has a triangle of this height below the other's side
+      const double covered = low * low / slope / 2;
+      CHECK(total_fluid(cut) == Approx(1 - half - .8 * .25 + covered).epsilon(1e-11));
+    }
+}

@@ -95,3 +95,25 @@ TEST_CASE("Boxes that touch in space, moved against each other by steps from 1e-
       }
   }
 }
+
+TEST_CASE("In space a side on a plane of the mesh has an area only where no other body covers it",
+          "[cut][contact]") {
+  for (const CellType type : {CellType::hexahedron, CellType::tetrahedron})
+    for (const int n : {2, 6}) {
+      const Mesh mesh = grid(type, {n, n, n}, unmoved());
+      CutMesh cut(mesh);
+      for (const double edge : {0.2, 0.3, 0.335, 0.6})
+        for (const double top : {0.51, 0.6}) {
+          INFO(name(type) << ", " << n << ", a step from " << edge << " to a height of " << top);
+          // A box that stands on z = 1/2, and a step that it has sunk into, which reaches out of the mesh.
+          cut.cut(std::vector{box({.25, .25, .5}, {.75, .75, .85}), box({edge, -.5, -.5}, {1.5, 1.5, top})});
+          check_closure(cut);
+          const double within = .75 - std::max(edge, .25), sunk = top - .5;
+          CHECK(total_fluid(cut) ==
+                Approx(1 - (1 - edge) * top - .25 * .35 + within * .5 * sunk).epsilon(1e-11));
+          const double step = (1 - edge) - within * .5 + (edge > .25 ? top - .5 * sunk : top);
+          const double sides = 2 * .35 - sunk * (2 * within + .5 * (edge > .25 ? 1 : 2));
+          CHECK(total_interface(cut) == Approx(step + sides + .25 + .5 * (.5 - within)).epsilon(1e-10));
+        }
+    }
+}

@@ -7,6 +7,8 @@
 #include <random>
 
 #include "face_jumps.hpp"
+#include "fluid_fluid.hpp"
+#include "quantities.hpp"
 #include "residual_stabilisation.hpp"
 #include "weak_boundary.hpp"
 
@@ -16,7 +18,8 @@ using namespace seam::fluid;
 namespace {
 
 constexpr double time_step = 0.2, theta = 0.6, cell_size = 0.3, trace_size = 0.17;
-const double factors[4][3] = {{1, 1 / (theta * time_step), 0},
+const double factors[5][3] = {{1, 1 / (theta * time_step), 0},
+                              {1, 1 / (theta * time_step), 0},
                               {1, 1 / (theta * time_step), 0},
                               {1, 1 / (theta * time_step), 0},
                               {1, 1 / (theta * time_step), 0}};
@@ -257,4 +260,37 @@ TEST_CASE("residual stabilisation vanishes where momentum and mass balance hold"
   CHECK(r[0] == Approx(rho * tau * 1));
   CHECK(r[1] == Approx(rho * tau * 2));
   CHECK(r[4] == Approx(tau));
+}
+
+TEST_CASE("what passes through the edge of a patch takes the velocity of where it comes from") {
+  const OnePoint at(2);
+  const Vec<2, double> here{{1.2, -0.7}}, there{{0.4, 0.9}}, jump = here - there;
+  const Vec<2, double> n{{at.normal[0], at.normal[1]}};
+  const double middle = 0.5 * dot(here + there, n);
+  for (const double relative : {0.5, -0.5, 2.0, -2.0}) {
+    // The edge moves along as well, which carries nothing through it.
+    const double w = middle - relative;
+    const Vec<2, double> edge{{w * n[0] - 0.3 * n[1], w * n[1] + 0.3 * n[0]}};
+    const std::vector<double> in{here[0], here[1], 0.1, 0.2, 0.3, -0.1, 0.4, there[0], there[1], 0.2,
+                                 -0.3,    0.1,     0.5, 0.6, 0.1, 0.05, 0.2, -0.1,     edge[0],  edge[1]};
+    const auto with = residual(*make_term(FluidFluid{flow, 0.3, 1, 20, true}), at, in);
+    const auto without = residual(*make_term(FluidFluid{flow, 0.3, 1, 20, false}), at, in);
+    REQUIRE(with.size() == 14);
+    const double into_patch = std::max(relative, 0.0), out_of_it = std::max(-relative, 0.0);
+    for (int i = 0; i < 2; ++i) {
+      CHECK(with[i] - without[i] == Approx(flow.density * out_of_it * jump[i]).margin(1e-12));
+      CHECK(with[7 + i] - without[7 + i] == Approx(-flow.density * into_patch * jump[i]).margin(1e-12));
+    }
+  }
+}
+
+TEST_CASE("simple shear takes the power of its stress times its rate") {
+  const auto dissipation = make_quantity(Dissipation{0.23});
+  // dv_x/dy = 3: the stress is 0.23 times 3; a rotation takes nothing.
+  for (const double turn : {0.0, 1.7}) {
+    const std::vector<double> in{0, 3 - turn, turn, 0};
+    double value = 0;
+    dissipation->evaluate(OnePoint(2).batch(in), &value, nullptr);
+    CHECK(value == Approx(0.23 * 3 * 3));
+  }
 }

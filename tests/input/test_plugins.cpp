@@ -55,9 +55,9 @@ struct TemporaryFolder {
 }  // namespace
 
 TEST_CASE("every way in which a plugin fails has its message") {
-  for (const std::string name :
-       {"other_abi", "newer_abi", "other_fingerprint", "other_headers", "no_symbol", "unresolved",
-        "not_a_library", "no_descriptor", "shell", "throws", "unpromised", "renamed", "beem"}) {
+  for (const std::string name : {"other_abi", "newer_abi", "other_fingerprint", "other_headers", "no_symbol",
+                                 "unresolved", "not_a_library", "no_descriptor", "shell", "throws",
+                                 "unpromised", "promises_more", "promises_less", "renamed", "beem"}) {
     check_golden(failure_of({name}), golden / ("plugin_" + name + ".txt"));
   }
   check_golden(failure_of({"beam", "beam_again"}), golden / "plugin_duplicate_name.txt");

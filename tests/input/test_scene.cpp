@@ -72,6 +72,28 @@ TEST_CASE("overrides replace and add values") {
   CHECK_THROWS_WITH(parse(good_text(), {{"fields.left.boundary.7.on", "a"}}), Contains("count from 0"));
 }
 
+TEST_CASE("a bound is in its range or not, as the schema says") {
+  const auto accepts = [](const std::string& key, const std::string& value) {
+    try {
+      parse(good_text(), {{"fields.left." + key, value}});
+      return true;
+    } catch (const Error& error) {
+      CHECK_THAT(error.what(), Contains("is out of range"));
+      return false;
+    }
+  };
+  CHECK(accepts("material.poisson", "0"));  // at_least
+  CHECK_FALSE(accepts("material.poisson", "-1e-9"));
+  CHECK(accepts("material.poisson", "0.499999999"));
+  CHECK_FALSE(accepts("material.poisson", "0.5"));  // below
+  CHECK(accepts("density", "1e-9"));
+  CHECK_FALSE(accepts("density", "0"));  // above
+  CHECK(accepts("order", "1"));
+  CHECK_FALSE(accepts("order", "0"));
+  CHECK(accepts("order", "2"));  // at_most
+  CHECK_FALSE(accepts("order", "3"));
+}
+
 TEST_CASE("names of boundaries are checked against the meshes") {
   Registry registry;
   register_test_types(registry);

@@ -27,7 +27,7 @@ time: {end: 1, step: {initial: 0.1}}
 output:
   fields: false
   probes: {tip: {field: block, at: [1, 0.5], quantity: displacement}}
-  formulas: {change: block_volume - 1 + t, speed: "t > 0 ? tip_x/t : 0", push: "tip_x > 0.03 && tip_x < 0.15 ? 1 : 0"}
+  formulas: {change: block_volume - 1 + t, speed: "t > 0 ? tip_x/t : 0", push: "tip_x > 0.03 && tip_x < 0.15 ? 1 : 0", swing: sin(5*pi*t)}
   statistics:
     bend: {of: tip.x, what: curvature}
     bend_before: {of: tip.x, what: curvature, to: 0.61}
@@ -38,6 +38,7 @@ output:
     release: {of: tip.x, what: release}
     fastest: {of: speed, what: maximum, from: 0.05, to: 0.61}
     push_ends: {of: push, what: release}
+    swings: {of: swing, what: frequency}
 )scene");
   const auto run = seam("run " + scene + " --quiet --no-picture --folder " + (folder.path / "out").string());
   CAPTURE(run.output);
@@ -51,6 +52,8 @@ output:
   CHECK(results["release"].is_null());  // infinite: it lasts to the end
   CHECK(results["fastest"].get<double>() == Approx(0.3));
   CHECK(results["push_ends"].get<double>() == Approx(0.6));
+  // At these steps a wave of straight lines; two and a half periods with three crossings.
+  CHECK(results["swings"].get<double>() == Approx(2.5).epsilon(1e-9));
   CHECK(results["last"].get<double>() == Approx(0.4));
   CHECK(results["block.volume_rate"].get<double>() == Approx(0).margin(1e-8));
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which time steps a run takes.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
 #include "cli/run_command.hpp"
 #include "series.hpp"
 
@@ -48,6 +51,66 @@ TEST_CASE("steps end exactly at the kinks of loads and return to their grid") {
   REQUIRE(taken.size() == 13);  // the start, ten steps of the grid and two kinks
   CHECK(taken[5] == Approx(0.4));
   CHECK(taken[10] == Approx(0.8));
+}
+
+TEST_CASE("what is left before the end is no step of its own where it is next to nothing") {
+  const Folder folder;
+  const auto taken = [&](const std::string& end) {
+    const std::string file = folder.file("s.yaml", scene("t", "{end: " + end + ", step: {initial: 0.1}}"));
+    REQUIRE(run(folder, file, end).code == 0);
+    const std::vector<double> all = times(folder, end);
+    CHECK(all.back() == std::stod(end));
+    return all.size() - 1;
+  };
+  CHECK(taken("0.5005") == 5);
+  CHECK(taken("0.52") == 6);
+  CHECK(taken("0.4995") == 5);
+}
+
+TEST_CASE("a step whose error in time is too large leaves nothing behind") {
+  const Folder folder;
+  // The load sets in without a kink, while steps of a body at rest have grown.
+  const std::string load = "exp(-((t - 2)/0.05)^2)";
+  const std::string adaptive =
+      "{end: 3, step: {initial: 0.002, adaptive: true, maximum: 0.2, tolerance: 1e-2";
+  REQUIRE(run(folder, folder.file("a.yaml", scene(load, adaptive + "}}")), "first").code == 0);
+  REQUIRE(nlohmann::json::parse(folder.read("first/summary.json"))["rejected_steps"].get<int>() > 0);
+  CHECK_THAT(folder.read("first/events.jsonl"), Catch::Contains("its error in time is"));
+  const std::string again = adaptive + ", replay: first/series.csv}}";
+  REQUIRE(run(folder, folder.file("b.yaml", scene(load, again)), "second").code == 0);
+  CHECK(nlohmann::json::parse(folder.read("second/summary.json"))["rejected_steps"].get<int>() == 0);
+  CHECK(folder.read("first/series.csv") == folder.read("second/series.csv"));
+}
+
+TEST_CASE("adaptive steps have the error that is asked for") {
+  // dx/dt + x = exp(t), so that x = sinh(t) and its second derivative is x itself: half the step times the
+  // change of the rate is h^2/2 of x. Steps aim at 0.9^2 of the tolerance.
+  const auto scene = [](double tolerance) {
+    return "title: a dashpot\ndimension: 2\nplugins: [solid]\n"
+           "meshes: {block: {grid: {from: [0, 0], to: [1, 1], cells: [1, 1]}}}\n"
+           "fields: {block: {type: rigid_body, mesh: block, translation: [null, 0], rotation: [0], "
+           "stiffness: [1, 0], damping: [1, 0], force: [exp(t), 0]}}\n"
+           "output: {fields: false, probes: {x: {field: block, quantity: translation, component: x}}}\n"
+           "time: {theta: 0.5, end: 3, step: {initial: 1e-3, adaptive: true, maximum: 1, tolerance: " +
+           std::to_string(tolerance) + "}}\n";
+  };
+  const Folder folder;
+  for (const double tolerance : {1e-3, 1e-4}) {
+    const std::string where = "r" + std::to_string(tolerance);
+    const Result result = run(folder, folder.file("a.yaml", scene(tolerance)), where);
+    CAPTURE(result.output);
+    REQUIRE(result.code == 0);
+    const std::string series = folder.read(where + "/series.csv");
+    CHECK(column(series, "x").back() == Approx(std::sinh(3)).epsilon(3 * tolerance));
+    const std::vector<double> time = times(folder, where);
+    int compared = 0;
+    for (std::size_t k = 1; k + 1 < time.size(); ++k) {
+      if (time[k - 1] < 1) continue;
+      CHECK(time[k] - time[k - 1] == Approx(0.9 * std::sqrt(2 * tolerance)).epsilon(0.03));
+      ++compared;
+    }
+    CHECK(compared > 20);
+  }
 }
 
 TEST_CASE("adaptive steps are small where a load sets in, grow, and can be taken again") {

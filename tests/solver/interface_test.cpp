@@ -136,6 +136,30 @@ TEST_CASE("two bodies exchange through a matching interface", "[ranks]") {
   check_exact(*problem);
 }
 
+TEST_CASE("faces match up to rounding, not up to what is seen in a picture", "[ranks]") {
+  const auto build = [](double shift) {
+    Problem problem{Communicator()};
+    Grid grid;
+    grid.cell = CellType::quadrilateral;
+    grid.lines[0] = graded_lines(1, 2, 3);
+    grid.lines[1] = graded_lines(shift, 1 + shift, 6);
+    const auto right =
+        std::make_shared<Mesh>("half", std::make_shared<MeshData>(make_grid(grid)), Communicator());
+    PlainSetup setup({&problem.add_field("left", half(CellType::quadrilateral, 0, 1, 5),
+                                         std::make_unique<Conductor>(1, "x_min", 0.0)),
+                      &problem.add_field("right", right, std::make_unique<Conductor>(1, "x_max", 1.0))},
+                     2);
+    Parameters p;
+    p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
+    p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
+    return MatchingInterface(p).build(setup).front().domain->size();
+  };
+  CHECK(Communicator().sum(static_cast<long long>(build(1e-9))) == 6);
+  // A ten thousandth of a face.
+  CHECK_THROWS_WITH(build(1e-4 / 6), Catch::Contains("no matching face"));
+  CHECK_THROWS_WITH(build(-1e-4 / 6), Catch::Contains("no matching face"));
+}
+
 TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
   const std::string preconditioner = GENERATE("multigrid", "schur", "ilu");
   auto problem = two_bodies(CellType::hexahedron, 1);
@@ -179,6 +203,37 @@ TEST_CASE("a kept preconditioner serves a matrix that was built anew with the sa
   // As after a step that failed.
   solver.forget();
   CHECK(solver.solve(a, {block}, b, y).new_factorisation);
+}
+
+TEST_CASE("a solver's word is not taken for its solution", "[ranks]") {
+  // It says nothing of having failed.
+  class Wrong final : public LinearSolver {
+   public:
+    explicit Wrong(double relative_error) : error_(relative_error) {}
+
+   private:
+    void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+                    std::vector<double>& x, SolveReport& report) override {
+      MumpsSolver solver;
+      report = solver.solve(a, blocks, b, x);
+      for (double& entry : x) entry *= 1 + error_;
+    }
+    double error_;
+  };
+  auto problem = two_bodies(CellType::quadrilateral, 1);
+  problem->update_spaces(time_point(1, 0, 1));
+  problem->assembler().assemble(time_point(1, 0, 1), true);
+  const Assembler& assembler = problem->assembler();
+  std::vector<double> x;
+  const auto solve = [&](double error) {
+    return Wrong(error).solve(assembler.matrix(), assembler.equation_blocks(),
+                              std::vector<double>(assembler.matrix().rows, 1.0), x);
+  };
+  // A solution that is too large by a part leaves that part of the right-hand side.
+  CHECK(solve(1e-7).relative_residual == Approx(1e-7).epsilon(1e-4));
+  CHECK_THROWS_AS(solve(1e-5), SingularMatrix);
+  CHECK_THROWS_AS(solve(-1), SingularMatrix);
+  CHECK_THROWS_AS(solve(std::nan("")), SingularMatrix);
 }
 
 TEST_CASE("factors that are kept are dropped when a step is rewound", "[ranks]") {

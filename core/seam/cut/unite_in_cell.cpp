@@ -84,7 +84,10 @@ class CellUnion {
   [[nodiscard]] double thickness(const Convex& part) const;
   [[nodiscard]] bool is_wet_part(const Convex& part, const Places& places) const;
   std::unique_ptr<Node> divide_at(const Node& node, const Convex& part, std::vector<Fragment> fragments,
-                                  const Places& before, bool in_front);
+                                  const Places& before, bool in_front, const std::vector<Fragment>& walls);
+  std::unique_ptr<Node> divide_at_walls(const Node& node, const Convex& part, std::vector<Fragment> fragments,
+                                        const Places& covered, const Places& uncovered,
+                                        const std::vector<Fragment>& walls, std::size_t wall);
   std::unique_ptr<Node> divide_layer(const Vector& normal, const Convex& part,
                                      std::vector<Fragment> fragments, const std::vector<Polygon>& covers,
                                      std::size_t cover, std::size_t edge, const Places& covered,
@@ -170,6 +173,7 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
     nodes_.push_back(node.get());
     node->plane = plane;
     std::vector<Fragment> before, behind;
+    std::vector<Fragment> on_front, on_back;  // those that end on the plane, along an edge of theirs
     const auto number = chosen - fragments.begin();
     for (Fragment& f : fragments) {
       // The chosen one lies in its own plane, whatever rounding has made of a narrow one: so this comes to an
@@ -189,13 +193,18 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
           node->in_plane.push_back(std::move(f));
         continue;
       }
+      const auto touching = std::count_if(f.corner.begin(), f.corner.end(), [&](const Vector& x) {
+        return std::abs(plane.height(x)) <= resolution_;
+      });
+      if (low > -resolution_ && touching > 1) on_front.push_back(f);
+      if (high < resolution_ && touching > 1) on_back.push_back(f);
       Fragment above{{}, f.piece}, below{{}, f.piece};
       split(f.corner, plane, above.corner, below.corner);
       if (high > resolution_ && !above.corner.empty()) before.push_back(std::move(above));
       if (low < -resolution_ && !below.corner.empty()) behind.push_back(std::move(below));
     }
-    node->front = divide_at(*node, front, std::move(before), places, true);
-    node->back = divide_at(*node, back, std::move(behind), places, false);
+    node->front = divide_at(*node, front, std::move(before), places, true, on_back);
+    node->back = divide_at(*node, back, std::move(behind), places, false, on_front);
     return node;
   }
   node->part = part;
@@ -205,16 +214,56 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
 
 std::unique_ptr<Node> CellUnion::divide_at(const Node& node, const Convex& part,
                                            std::vector<Fragment> fragments, const Places& before,
-                                           bool in_front) {
+                                           bool in_front, const std::vector<Fragment>& walls) {
   const Places places = places_after(node, fragments, before, in_front);
   if (volume(part) > smallest_part * cell_volume_) return divide(part, std::move(fragments), places);
   // A facet that ends on this layer at the cell's border covers only a part of it, and the facets round the
   // corner are too narrow here to tell which.
-  std::vector<Polygon> covers;
-  for (const Fragment& f : node.in_plane) covers.push_back(f.corner);
   Places uncovered = places;
   for (const Fragment& f : node.in_plane) uncovered[cell_.pieces[f.piece].body] = Place::unknown;
-  return divide_layer(node.plane.normal, part, std::move(fragments), covers, 0, 0, places, uncovered);
+  return divide_at_walls(node, part, std::move(fragments), places, uncovered, walls, 0);
+}
+
+/// Divides a thin layer along the fragments that reach it from beyond the plane, of other bodies, too: they
+/// go on through it and are too narrow there to be fragments themselves.
+std::unique_ptr<Node> CellUnion::divide_at_walls(const Node& node, const Convex& part,
+                                                 std::vector<Fragment> fragments, const Places& covered,
+                                                 const Places& uncovered, const std::vector<Fragment>& walls,
+                                                 std::size_t wall) {
+  if (wall == walls.size()) {
+    std::vector<Polygon> covers;
+    for (const Fragment& f : node.in_plane) covers.push_back(f.corner);
+    return divide_layer(node.plane.normal, part, std::move(fragments), covers, 0, 0, covered, uncovered);
+  }
+  const Plane plane = plane_of(walls[wall]);
+  const int body = cell_.pieces[walls[wall].piece].body;
+  const bool has_cover = std::any_of(node.in_plane.begin(), node.in_plane.end(),
+                                     [&](const Fragment& f) { return cell_.pieces[f.piece].body == body; });
+  double low = 0, high = 0;
+  for (const Convex::Face& face : part.faces)
+    for (const Vector& x : face.corner) {
+      low = std::min(low, plane.height(x));
+      high = std::max(high, plane.height(x));
+    }
+  // One on the layer's own rim divides nothing.
+  if (has_cover || low > -25 * resolution_ || high < 25 * resolution_)
+    return divide_at_walls(node, part, std::move(fragments), covered, uncovered, walls, wall + 1);
+  Convex front, back;
+  split(part, plane, node_origin(nodes_.size()), front, back);
+  auto result = std::make_unique<Node>();
+  nodes_.push_back(result.get());
+  result->plane = plane;
+  result->in_plane = {walls[wall]};
+  std::vector<Fragment> before, behind;
+  for (Fragment& f : fragments) {
+    Fragment above{{}, f.piece}, below{{}, f.piece};
+    split(f.corner, plane, above.corner, below.corner);
+    if (is_wide(above.corner)) before.push_back(std::move(above));
+    if (is_wide(below.corner)) behind.push_back(std::move(below));
+  }
+  result->front = divide_at_walls(node, front, std::move(before), covered, uncovered, walls, wall + 1);
+  result->back = divide_at_walls(node, back, std::move(behind), covered, uncovered, walls, wall + 1);
+  return result;
 }
 
 /// Divides a thin layer along the edges of the polygons that cover it.

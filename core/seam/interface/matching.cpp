@@ -9,6 +9,7 @@
 #include <map>
 
 #include "seam/assembly/domains.hpp"
+#include "seam/assembly/together.hpp"
 #include "seam/cut/cut_interface.hpp"
 #include "seam/cut/embedded_interface.hpp"
 #include "seam/interface/remote_cells.hpp"
@@ -162,20 +163,23 @@ std::vector<InterfacePart> MatchingInterface::build(InterfaceSetup& setup) const
   const FaceFinder finder(second, partners_of->second);
   std::vector<CellFace> faces;
   std::vector<int> partner_cells;
-  for (const CellFace& face : sides[0]->mesh().boundary(boundaries_[0])) {
-    if (face.cell >= sides[0]->mesh().owned_cells()) continue;
-    const FaceCentre centre = centre_of(first, {sides[0]->mesh().global_cell(face.cell), face.face});
-    const CellFace* partner = finder.find(centre);
-    if (!partner)
-      throw Error(
-          where_,
-          fmt::format("the face of '{}' on boundary '{}' with centre ({}) has no matching face on boundary "
-                      "'{}' of '{}'",
-                      fields_[0], boundaries_[0], fmt::join(centre.x, centre.x + first.dimension, ", "),
-                      boundaries_[1], fields_[1]));
-    faces.push_back(face);
-    partner_cells.push_back(partner->cell);
-  }
+  // A face without a partner may be another rank's, and the partners' cells are fetched together.
+  together(sides[0]->mesh().communicator(), [&] {
+    for (const CellFace& face : sides[0]->mesh().boundary(boundaries_[0])) {
+      if (face.cell >= sides[0]->mesh().owned_cells()) continue;
+      const FaceCentre centre = centre_of(first, {sides[0]->mesh().global_cell(face.cell), face.face});
+      const CellFace* partner = finder.find(centre);
+      if (!partner)
+        throw Error(
+            where_,
+            fmt::format("the face of '{}' on boundary '{}' with centre ({}) has no matching face on boundary "
+                        "'{}' of '{}'",
+                        fields_[0], boundaries_[0], fmt::join(centre.x, centre.x + first.dimension, ", "),
+                        boundaries_[1], fields_[1]));
+      faces.push_back(face);
+      partner_cells.push_back(partner->cell);
+    }
+  });
   return {{"", std::make_shared<MatchingDomain>(sides, faces, fetch_cells(*sides[1], partner_cells),
                                                 setup.degree + setup.extra_degree)}};
 }

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// In space: what of a body's surface is wet, and what the closed rest of it weighs.
+#include "seam/contact/embedded_surface.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "seam/mesh/input/grid.hpp"
+#include "seam/mesh/quadrature.hpp"
+
+using namespace seam;
+
+namespace {
+
+using Corner = std::array<double, 3>;
+
+std::unique_ptr<Mesh> block(CellType cell, const Corner& low, const Corner& high, int cells) {
+  Grid grid;
+  grid.cell = cell;
+  for (int d = 0; d < 3; ++d) grid.lines[d] = graded_lines(low[d], high[d], cells);
+  return std::make_unique<Mesh>("block", std::make_shared<MeshData>(make_grid(grid)), Communicator());
+}
+
+/// A stamp of one cell's tetrahedra that has sunk by 0.01 into a step, which ends below it.
+struct Stamp {
+  explicit Stamp(double edge)
+      : water_mesh(block(CellType::hexahedron, {0, 0, 0}, {1, 1, 1}, 6)),
+        stamp_mesh(block(CellType::tetrahedron, {0.25, 0.25, 0.5}, {0.75, 0.75, 0.85}, 1)),
+        step_mesh(block(CellType::hexahedron, {edge, -0.5, -0.5}, {1.5, 1.5, 0.51}, 1)),
+        water("water", *water_mesh, {{"p", 1, 1, 0, ""}}),
+        stamp("stamp", *stamp_mesh, {{"displacement", 3, 1, 0, "m"}}),
+        step("step", *step_mesh, {{"displacement", 3, 1, 0, "m"}}),
+        cut(water),
+        stamp_surface(std::make_shared<BodySurface>(stamp, std::vector<std::string>{}, "displacement")),
+        step_surface(std::make_shared<BodySurface>(step, std::vector<std::string>{}, "displacement")),
+        surface(water, cut, cut.add_body([this](double) { return stamp_surface->now(); }), stamp_surface,
+                step_surface, {0.05, 0.05}, degree) {
+    cut.add_body([this](double) { return step_surface->now(); });
+    water.blocks()[0].known.assign(water.blocks()[0].known.size(), 1);
+    cut.update(0);
+    water.occupy(cut.active_cells(), &cut.mesh());
+    surface.begin_step();
+    surface.follow();
+  }
+  /// Of the points of a part on the stamp's lower side.
+  [[nodiscard]] double area(EmbeddedSurface::Part part) const {
+    double sum = 0;
+    for (const EmbeddedSurface::Element& element : surface.elements(part))
+      for (std::size_t q = 0; q < element.own.weight.size(); ++q)
+        if (element.normal[3 * q + 2] > 0.99) sum += element.own.weight[q];
+    return Communicator().sum(sum);
+  }
+  static constexpr int degree = 2;  ///< three points a facet
+  std::unique_ptr<Mesh> water_mesh, stamp_mesh, step_mesh;
+  Field water, stamp, step;
+  FieldCut cut;
+  std::shared_ptr<BodySurface> stamp_surface, step_surface;
+  EmbeddedSurface surface;
+};
+
+/// Of a triangle, the area where x > edge. @param x of its vertices
+double area_beyond(double edge, double area, Corner x) {
+  std::ranges::sort(x);
+  const double width = x[2] - x[0];
+  if (edge <= x[0]) return area;
+  if (edge >= x[2]) return 0;
+  if (edge > x[1]) return area * (x[2] - edge) * (x[2] - edge) / (width * (x[2] - x[1]));
+  return area * (1 - (edge - x[0]) * (edge - x[0]) / (width * (x[1] - x[0])));
+}
+
+struct Expected {
+  double wet = 0, closed = 0;
+  int bounded = 0;  ///< facets whose closed points would have to stand for more than twice their own
+};
+
+/// All that is not wet, but for no point more than twice its weight.
+Expected expected(const Stamp& body, double edge) {
+  const Quadrature& rule = quadrature(CellType::triangle, Stamp::degree);
+  const Surface stamp = body.stamp_surface->now();
+  Expected result;
+  for (int facet = 0; facet < stamp.facet_count(); ++facet) {
+    Corner x{}, y{}, z{};
+    for (int k = 0; k < 3; ++k) {
+      const double* at = &stamp.points[static_cast<std::size_t>(stamp.facets[facet * 3 + k]) * 3];
+      x[k] = at[0], y[k] = at[1], z[k] = at[2];
+    }
+    if (*std::ranges::max_element(z) > 0.5 + 1e-9) continue;
+    const double area = std::abs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / 2;
+    const double closed = area_beyond(edge, area, x);
+    double points = 0;
+    for (int q = 0; q < rule.count(); ++q) {
+      const double *s = &rule.points[static_cast<std::size_t>(q) * 2], weight = 2 * area * rule.weights[q];
+      if (x[0] + s[0] * (x[1] - x[0]) + s[1] * (x[2] - x[0]) > edge) points += weight;
+    }
+    result.wet += area - closed;
+    result.closed += std::min(closed, 2 * points);
+    if (points > 0 && closed > 2 * points) ++result.bounded;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("closed points stand for all of a facet that is not wet, none for more than twice its own area") {
+  int bounded = 0;
+  // In quarters of the stamp's width from its left side.
+  for (const double share : {-0.1, 0.1, 0.17, 0.3, 0.5, 0.7, 0.8, 0.9}) {
+    const double edge = 0.25 + 0.5 * share;
+    const Stamp stamp(edge);
+    const Expected right = expected(stamp, edge);
+    INFO("edge at " << share << " of the width");
+    CHECK(stamp.area(EmbeddedSurface::free) + stamp.area(EmbeddedSurface::near) ==
+          Approx(right.wet).margin(1e-9));
+    CHECK(stamp.area(EmbeddedSurface::closed) == Approx(right.closed).margin(1e-9));
+    bounded += right.bounded;
+  }
+  CHECK(bounded > 0);
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// States of nodes that come alive.
+#include "seam/cut/extension.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "cut/cut_test.hpp"
+
+using namespace seam;
+
+namespace {
+
+/// Another linear function for each component of each level.
+double linear(std::size_t level, int component, const double* x, int dim) {
+  double sum = 1.0 + static_cast<double>(level) - 3 * component;
+  for (int d = 0; d < dim; ++d) sum += (0.5 + static_cast<double>(level) * (d + 1) - 0.7 * component) * x[d];
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("all levels of a state, old ones included, go on to new nodes as they are", "[ranks]") {
+  const auto [cell_type, polynomial] = GENERATE(table<CellType, int>(
+      {{CellType::quadrilateral, 1}, {CellType::triangle, 2}, {CellType::hexahedron, 1}}));
+  const CellType type = cell_type;
+  const int order = polynomial, dim = type == CellType::hexahedron ? 3 : 2;
+  const Mesh mesh = grid(type, {5, 4, dim == 3 ? 3 : 0}, rotated(dim, 0.3, {1, 1.2, 1}, {0, 0, 0}));
+  Field field("water", mesh, {{"v", 2, order, 1, ""}});
+  field.occupy(std::vector<char>(mesh.cells(), 1));
+  Block& block = field.blocks()[0];
+  block.now.keep_mean_rates();
+  block.old.keep_mean_rates();
+  std::vector<std::vector<double>*> levels = block.now.levels();
+  for (std::vector<double>* level : block.old.levels()) levels.push_back(level);
+  REQUIRE(levels.size() == 10);
+
+  const auto each_value = [&](const auto& visit) {
+    for (int c = 0; c < mesh.cells(); ++c)
+      for (int k = 0; k < block.space->nodes_per_cell(); ++k) {
+        double reference[3];
+        std::copy_n(&topology(type).node_coordinates[static_cast<std::size_t>(k) * dim], dim, reference);
+        const Point x = position(mesh, c, reference);
+        const int node = field.cell_nodes(0, c)[k];
+        for (std::size_t l = 0; l < levels.size(); ++l)
+          for (int i = 0; i < 2; ++i)
+            visit((*levels[l])[static_cast<std::size_t>(node) * 2 + i], linear(l, i, x.data(), dim), node, x);
+      }
+  };
+  block.known.assign(block.known.size(), 1);
+  int fresh = 0;
+  each_value([&](double& value, double exact, int node, const Point& x) {
+    value = exact;
+    // A corner of the mesh is new, and holds whatever was there.
+    if (std::hypot(x[0], x[1], x[2]) < 0.25) {
+      block.known[node] = 0;
+      value = 1e3;
+      ++fresh;
+    }
+  });
+  REQUIRE(Communicator().sum(static_cast<long long>(fresh)) > 0);
+  Extension(field).extend();
+  each_value([](double value, double exact, int, const Point&) {
+    CHECK(value == Approx(exact).epsilon(1e-9).margin(1e-9));
+  });
+}
