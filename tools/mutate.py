@@ -29,7 +29,8 @@ SECONDS = 600  # of a test; one that takes longer has noticed
 CHAINS = {
     "assembly": "solver kit:solid fluid kit:cutfem_fluid kit:nitsche_fsci",
     "base": "input solver",
-    "contact": "contact cut fsi:contact_in_fluid_test kit:nitsche_fsci scene:contact/patch_2d scene:contact/patch_3d",
+    "contact": "contact cut scene:contact/patch_2d scene:contact/patch_3d scene:contact/closing_notch run:passage_test "
+               "fsi:contact_in_fluid_test kit:nitsche_fsci",
     "cut": "cut cut_stress run:moving_cut_test run:separate_parts_test run:pocket_test fluid kit:cutfem_fluid "
            "scene:fsi/c01",
     "cutfem_fluid": "fluid kit:cutfem_fluid run:moving_mesh_test scene:fluid/couette_slip scene:fluid/patch_shear "
