@@ -8,6 +8,7 @@
 
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
+#include "seam/base/policy.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
@@ -69,6 +70,23 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   timings_.setup = watch.seconds();
 }
 
+namespace {
+
+/// A bound on the unknowns of a field, before there are any.
+void require_allowed_unknowns(const Physics& physics, const MeshData& mesh, const Location& where) {
+  if (physics.support() == Support::point) return;
+  double unknowns = 0;
+  for (const Unknown& unknown : physics.unknowns(mesh.dimension)) {
+    // Halved edges: 2^dimension times as many nodes.
+    const double nodes =
+        mesh.node_count() * (unknown.order > mesh.order ? std::pow(2.0, mesh.dimension) : 1.0);
+    unknowns += unknown.given ? 0 : nodes * unknown.components;
+  }
+  require_within(unknowns, policy().limits.unknowns, "unknowns", "unknowns of the field, about", where);
+}
+
+}  // namespace
+
 void Simulation::build_fields(const Registry& registry) {
   meshes_ = load_meshes(scene_);
   check_mesh_names(scene_, registry, mesh_names(meshes_));
@@ -82,10 +100,10 @@ void Simulation::build_fields(const Registry& registry) {
           fmt::format("the distributed mesh '{}' ({} cells)", mesh, meshes_.at(mesh)->cell_count()),
           parameters.where(),
           [&] { return std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh)); });
+    auto physics = registry.create<Physics>("field", parameters);
+    require_allowed_unknowns(*physics, *meshes_.at(mesh), parameters.where());
     needing_memory(fmt::format("the unknowns of the field '{}'", name), parameters.where(),
-                   [&, &field = name, &of_field = parameters] {
-                     problem_.add_field(field, meshes[mesh], registry.create<Physics>("field", of_field));
-                   });
+                   [&, &field = name] { problem_.add_field(field, meshes[mesh], std::move(physics)); });
   }
 }
 
