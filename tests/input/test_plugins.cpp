@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -28,6 +30,9 @@ std::string failure_of(const std::vector<std::string>& names) {
   } catch (const PluginError& e) {
     std::string text = replaced(e.what(), fs::canonical(SEAM_TEST_PLUGINS).string(), "<folder>");
     text = replaced(text, host_fingerprint(), "<fingerprint of this Seam>");
+    text = replaced(text, host_headers(), "<headers of this Seam>");
+    text = replaced(text, fmt::format("{0}.0 to {0}.{1}", seam::plugin_abi_major, seam::plugin_abi_minor),
+                    "<what this Seam takes>");
     const std::string start = "(expected ", mask = "...";
     for (std::size_t i = 0; (i = text.find(start, i)) != std::string::npos;) {
       i += start.size();
@@ -51,8 +56,8 @@ struct TemporaryFolder {
 
 TEST_CASE("every way in which a plugin fails has its message") {
   for (const std::string name :
-       {"other_abi", "newer_abi", "other_fingerprint", "no_symbol", "unresolved", "not_a_library",
-        "no_descriptor", "shell", "throws", "unpromised", "renamed", "beem"}) {
+       {"other_abi", "newer_abi", "other_fingerprint", "other_headers", "no_symbol", "unresolved",
+        "not_a_library", "no_descriptor", "shell", "throws", "unpromised", "renamed", "beem"}) {
     check_golden(failure_of({name}), golden / ("plugin_" + name + ".txt"));
   }
   check_golden(failure_of({"beam", "beam_again"}), golden / "plugin_duplicate_name.txt");
@@ -105,6 +110,44 @@ TEST_CASE("a plugin that the scene does not use is a warning") {
   const Scene scene = parse_scene_text(text, "scene.yaml", {}, host, registry);
   CHECK_THAT(scene.warnings.text(),
              Contains("warning: plugin 'beam' is loaded, but the scene uses none of its types"));
+}
+
+TEST_CASE("an older minor version is accepted, whatever its headers were") {
+  const PluginHost host({SEAM_TEST_PLUGINS});
+  const std::vector<PluginHost::Found> found = host.scan();
+  const auto older = std::ranges::find(found, "older_minor", &PluginHost::Found::name);
+  REQUIRE(older != found.end());
+  CHECK(older->info.abi_minor == 0);
+  CHECK(older->info.headers.empty());
+  CHECK(older->why_not().empty());
+}
+
+TEST_CASE("of two plugins with one name the first that can be used counts, and the other one is told") {
+  const TemporaryFolder folder;
+  const auto put = [&](const std::string& source, const std::string& into) {
+    fs::create_directory(folder.path / into);
+    fs::copy(fs::path(SEAM_TEST_PLUGINS) / ("libseam_" + source + ".so"),
+             folder.path / into / "libseam_beam.so");
+  };
+  put("beam", "first");
+  put("beam", "second");
+  put("other_abi", "stale");
+  const PluginHost both({folder.path / "first", folder.path / "second"});
+  REQUIRE(both.scan().size() == 1);
+  CHECK(both.scan()[0].file == folder.path / "first/libseam_beam.so");
+  CHECK(both.scan()[0].hidden == std::vector<fs::path>{folder.path / "second/libseam_beam.so"});
+  const PluginHost stale({folder.path / "stale", folder.path / "second"});
+  REQUIRE(stale.scan().size() == 1);
+  CHECK(stale.scan()[0].file == folder.path / "second/libseam_beam.so");
+  CHECK(stale.scan()[0].hidden == std::vector<fs::path>{folder.path / "stale/libseam_beam.so"});
+
+  PluginHost host({folder.path / "first", folder.path / "second"});
+  Registry registry;
+  register_test_types(registry);
+  const std::string text =
+      "plugins: [beam]\n" + read_text(fs::path(SEAM_SOURCE_DIR) / "tests/input/good.yaml");
+  CHECK_THAT(parse_scene_text(text, "scene.yaml", {}, host, registry).warnings.text(),
+             Contains("second/libseam_beam.so', of the same name, is not used; remove one of them"));
 }
 
 TEST_CASE("folders that anybody may write to are not searched") {

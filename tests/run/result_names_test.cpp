@@ -26,7 +26,8 @@ fields:
 time: {end: 1, step: {initial: 0.25}}
 output:
   fields: false
-  probes: {tip: {field: block, at: [1, 1], quantity: displacement}}
+  probes:
+    tip: {field: block, at: [1, 1], quantity: displacement}
 )yaml" + output +
          "\nchecks: " + checks + "\n";
 }
@@ -77,4 +78,17 @@ TEST_CASE("a check of a result that is not there is said before the first step")
                Contains("no result is called '" + name + "'") && !Contains("did you mean ''"));
     CHECK_FALSE(std::filesystem::exists(run.folder.path / "out/series.csv"));
   }
+}
+
+TEST_CASE("errors of what is built come all at once") {
+  const Run run(block(R"yaml(    far: {field: block, at: [9, 9], quantity: displacement}
+    wrong: {field: block, at: [1, 1], quantity: speed}
+  interfaces: true
+  cut: true
+  picture: {field: block, quantity: vorticity})yaml"),
+                "--quiet");
+  CAPTURE(run.done.output);
+  CHECK(run.done.code == 2);
+  for (const char* part : {"far", "speed", "interfaces: no coupling", "cut: no interface", "vorticity"})
+    CHECK_THAT(run.done.output, Contains(part));
 }

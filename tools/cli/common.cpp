@@ -5,6 +5,7 @@
 #include "command.hpp"
 #include "run.hpp"
 #include "seam/base/memory.hpp"
+#include "seam/base/plugin_fault.hpp"
 #include "seam/contact/contact_interface.hpp"
 #include "seam/cut/body.hpp"
 #include "seam/interface/matching.hpp"
@@ -18,7 +19,9 @@ Failure current_failure() {
   } catch (const PluginError& e) {
     return {plugin_failure, e.what()};
   } catch (const RunFailure& e) {
-    return {failed, e.what()};
+    return {e.code(), e.what()};
+  } catch (const PluginFault& e) {
+    return {plugin_failure, e.what()};
   } catch (const OutOfMemory& e) {
     return {failed, e.what()};
   } catch (const FileError& e) {

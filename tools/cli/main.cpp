@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "command.hpp"
+#include "crash.hpp"
 
 namespace {
 
@@ -36,6 +37,7 @@ int run_chosen(const std::vector<Command>& commands, const Trust& trust) {
 
 int main(int argc, char** argv) {
   keep_freed_memory();
+  explain_crashes();
   // A file that grows beyond `ulimit -f` is then an error that can be told, as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("Seam: multiphysics finite elements with physics in plugins");

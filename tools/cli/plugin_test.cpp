@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // seam plugin test: the conformance kit. What every plugin must hold, checked on the plugin alone and on
 // scenes.
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "command.hpp"
 #include "rank_runs.hpp"
+#include "seam/base/plugin_fault.hpp"
+#include "seam/base/program.hpp"
 #include "seam/conformance/plugin_checks.hpp"
 #include "seam/conformance/potential_checks.hpp"
 #include "seam/conformance/scene_checks.hpp"
@@ -26,6 +31,10 @@ struct Options {
   std::string file;
   std::vector<std::string> scenes;
   std::vector<int> ranks{1, 2, 3};
+  // Of a child:
+  std::string child;     ///< the file that gets what it finds; empty: not one
+  std::string work;      ///< its folder
+  bool compare = false;  ///< the runs on several ranks, which are in that folder
 };
 
 /// A folder of its own for the results, which goes away again.
@@ -98,68 +107,168 @@ void show_plugin_to_children(const fs::path& folder) {
   setenv("SEAM_PLUGIN_PATH", (folder.string() + (old && *old ? std::string(":") + old : "")).c_str(), 1);
 }
 
-std::vector<ConformanceCheck> rank_checks(const PluginHost::Found& plugin, const std::string& scene,
+/// Why runs on several ranks cannot be compared, if they cannot.
+std::optional<ConformanceCheck> run_ranks(const PluginHost::Found& plugin, const std::string& scene,
                                           const Options& options, const fs::path& folder) {
   for (const PluginHost::Found& found : PluginHost::standard().scan())
     if (found.name == plugin.name && fs::canonical(found.file) != fs::canonical(plugin.file))
-      return {conformance_check(
+      return conformance_check(
           "independence of the number of ranks", false,
-          fmt::format("'{}', a plugin of the same name, is found first; remove it", found.file.string()))};
-  return {run_on_ranks(scene, conformance_overrides(), options.ranks, folder)};
+          fmt::format("'{}', a plugin of the same name, is found first; remove it", found.file.string()));
+  return run_on_ranks(scene, conformance_overrides(), options.ranks, folder);
 }
 
-/// Everything on one scene that is done in this process.
-std::vector<ConformanceCheck> scene_checks(const std::string& file, const PluginHost::Found& plugin,
-                                           PluginHost& host, Registry& registry, const fs::path& folder,
-                                           std::set<std::string>& used) {
+// The plugin's code runs in children of this process alone: a crash there is one more finding. What a child
+// has found, it leaves in a file, a line each: {"begins": what}, {"used": "kind:type"}, {"name", "outcome",
+// "figures"}.
+
+/// What a child has found.
+struct Findings {
+  std::vector<ConformanceCheck> checks;
+  std::set<std::string> used;
+  std::string last;  ///< what it had begun when it ended
+};
+
+/// Writes the lines, in a child.
+class Record {
+ public:
+  explicit Record(const fs::path& file) : file_(file, std::ios::app) {}
+  void begin(const std::string& what) { write({{"begins", what}}); }
+  void use(const std::string& type) { write({{"used", type}}); }
+  void add(const std::vector<ConformanceCheck>& checks) {
+    for (const ConformanceCheck& c : checks)
+      write({{"name", c.name}, {"outcome", static_cast<int>(c.outcome)}, {"figures", c.figures}});
+  }
+
+ private:
+  void write(const nlohmann::json& line) {
+    file_ << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  }
+  std::ofstream file_;
+};
+
+Findings read_findings(const fs::path& file) {
+  Findings findings;
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    const nlohmann::json entry = nlohmann::json::parse(line);
+    if (entry.contains("begins"))
+      findings.last = entry["begins"];
+    else if (entry.contains("used"))
+      findings.used.insert(entry["used"].get<std::string>());
+    else
+      findings.checks.push_back({entry["name"],
+                                 static_cast<ConformanceCheck::Outcome>(entry["outcome"].get<int>()),
+                                 entry["figures"]});
+  }
+  return findings;
+}
+
+/// Everything on the plugin without a scene, in a child.
+void check_alone(const PluginHost::Found& plugin, PluginHost& host, Registry& registry, Record& record) {
+  record.begin("registration");
+  record.add(check_plugin(plugin, host, registry));
+}
+
+/// Everything on one scene, in a child.
+void check_one_scene(const Options& options, const PluginHost::Found& plugin, PluginHost& host,
+                     Registry& registry, Record& record) {
+  const std::string& file = options.scenes.front();
+  const fs::path folder = options.work;
+  record.begin("loads");
   try {
     const Scene scene = load_scene(file, conformance_overrides(), host, registry);
-    std::vector<ConformanceCheck> checks;
     for_each_typed(scene, registry, [&](const Registry::Entry& entry, const Parameters& parameters) {
-      used.insert(entry.kind + ":" + entry.name);
+      record.use(entry.kind + ":" + entry.name);
       if (entry.plugin != plugin.name || entry.kind != "hyperelastic") return;
+      record.begin("laws of " + entry.name);
       const auto material = registry.create<Potential>(entry.kind, parameters);
       for (ConformanceCheck check : check_hyperelastic(*material)) {
         check.name = entry.name + ": " + check.name;
-        checks.push_back(std::move(check));
+        record.add({std::move(check)});
       }
     });
-    const auto more = check_scene(scene, registry, folder);
-    checks.insert(checks.end(), more.begin(), more.end());
-    return checks;
-  } catch (const Error& error) {
-    return {conformance_check("loads", false, error.what())};
+    record.add(check_scene(scene, registry, folder, [&](const std::string& what) { record.begin(what); }));
+    if (!options.compare) return;
+    record.begin("the same on all ranks");
+    std::vector<fs::path> series;
+    for (const int n : options.ranks) series.push_back(series_on_ranks(folder, n));
+    record.add({check_ranks(scene, series, options.ranks)});
+  } catch (...) {
+    record.add({conformance_check("loads", false, text_of_exception())});
   }
 }
 
+int run_as_child(const Options& options) {
+  PluginHost host({});
+  const PluginHost::Found plugin = find_plugin(options.file, host);
+  Registry registry = builtin_types();
+  Record record(options.child);
+  if (options.scenes.empty()) {
+    check_alone(plugin, host, registry, record);
+    return ok;
+  }
+  return run_on_all_ranks([&](bool) {
+    check_one_scene(options, plugin, host, registry, record);
+    return ok;
+  });
+}
+
+/// Starts a child, and says if it did not come to its end.
+Findings ask_child(const Options& options, const std::vector<std::string>& arguments,
+                   const fs::path& folder) {
+  fs::create_directories(folder);
+  const fs::path file = folder / "findings", log = folder / "log";
+  std::vector<std::string> call{own_executable().string(),
+                                "plugin",
+                                "test",
+                                options.file,
+                                "--child",
+                                file.string(),
+                                "--work",
+                                folder.string()};
+  call.insert(call.end(), arguments.begin(), arguments.end());
+  const int code = run_program(call, log);
+  Findings findings = read_findings(file);
+  if (code == ok) return findings;
+  const std::string how = code > 128 ? fmt::format("signal {} ({})", code - 128, strsignal(code - 128))
+                                     : fmt::format("exit code {}", code);
+  findings.checks.push_back(
+      conformance_check("comes to its end", false,
+                        fmt::format("ends with {} in: {}\n{}", how, findings.last, first_lines(log))));
+  return findings;
+}
+
 int run(const Options& options) {
+  if (!options.child.empty()) return run_as_child(options);
   PluginHost host({});
   const PluginHost::Found plugin = find_plugin(options.file, host);
   show_plugin_to_children(plugin.file.parent_path());
   const TemporaryFolder folder;
-  Registry registry = builtin_types();
   Report report;
-  const auto alone = check_plugin(plugin, host, registry);
-  report.add(fmt::format("plugin {} {}, {}", plugin.name, plugin.info.version, plugin.file.string()), alone);
-  const bool loaded = std::any_of(host.loaded().begin(), host.loaded().end(),
-                                  [&](const PluginHost::Found& found) { return found.name == plugin.name; });
-  if (!loaded) return report.finish();
+  const Findings alone = ask_child(options, {}, folder.path() / "alone");
+  report.add(fmt::format("plugin {} {}, {}", plugin.name, plugin.info.version, plugin.file.string()),
+             alone.checks);
+  const bool registers = std::ranges::any_of(alone.checks, [](const ConformanceCheck& check) {
+    return check.name == "registration" && check.outcome == ConformanceCheck::Outcome::passed;
+  });
+  if (!registers) return report.finish();
 
   const std::vector<std::string> scenes = options.scenes.empty() ? scenes_beside(plugin) : options.scenes;
-  std::vector<std::vector<ConformanceCheck>> on_ranks;
-  for (std::size_t k = 0; k < scenes.size(); ++k)
-    on_ranks.push_back(rank_checks(plugin, scenes[k], options, folder.path() / std::to_string(k)));
-
-  return run_on_all_ranks([&](bool) {
-    std::set<std::string> used;
-    for (std::size_t k = 0; k < scenes.size(); ++k) {
-      auto checks = scene_checks(scenes[k], plugin, host, registry, folder.path() / std::to_string(k), used);
-      checks.insert(checks.end(), on_ranks[k].begin(), on_ranks[k].end());
-      report.add("scene " + scenes[k], checks);
-    }
-    report.add("coverage", check_coverage(plugin.info, used));
-    return report.finish();
-  });
+  std::set<std::string> used;
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    const fs::path own = folder.path() / std::to_string(k);
+    const auto incomparable = run_ranks(plugin, scenes[k], options, own);
+    std::vector<std::string> arguments{"--scene", scenes[k], "--ranks",
+                                       fmt::format("{}", fmt::join(options.ranks, ","))};
+    if (!incomparable) arguments.emplace_back("--compare");
+    Findings findings = ask_child(options, arguments, own);
+    if (incomparable) findings.checks.push_back(*incomparable);
+    report.add("scene " + scenes[k], findings.checks);
+    used.insert(findings.used.begin(), findings.used.end());
+  }
+  report.add("coverage", check_coverage(plugin.info, used));
+  return report.finish();
 }
 
 }  // namespace
@@ -176,6 +285,10 @@ Command plugin_test_command(CLI::App& parent) {
   app->add_option("--scene", options->scenes,
                   "scene that uses it; may be repeated; default those in conformance/<name> beside the file");
   app->add_option("--ranks", options->ranks, "numbers of ranks to compare; default 1,2,3")->delimiter(',');
+  // What the command says to those it starts.
+  app->add_option("--child", options->child)->group("");
+  app->add_option("--work", options->work)->group("");
+  app->add_flag("--compare", options->compare)->group("");
   return {app, [options] { return run(*options); }};
 }
 

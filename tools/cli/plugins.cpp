@@ -13,6 +13,7 @@ namespace {
 
 void print(const PluginHost::Found& found) {
   fmt::print("{}\n  file:     {}\n", found.name, found.file.string());
+  for (const auto& hidden : found.hidden) fmt::print("  hides:    {} (not used)\n", hidden.string());
   const std::string problem = found.why_not();
   if (!problem.empty()) fmt::print("  unusable: {}\n", problem);
   if (found.info.name.empty()) return;
@@ -32,7 +33,8 @@ int list() {
   for (const auto& folder : host.folders()) fmt::print("  {}\n", folder.string());
   for (const std::string& refused : host.refused()) fmt::print("  {}\n", refused);
   if (host.folders().empty() && host.refused().empty()) fmt::print("  (no folder; set SEAM_PLUGIN_PATH)\n");
-  fmt::print("this Seam: plugin ABI {}.{}, {}\n", plugin_abi_major, plugin_abi_minor, host_fingerprint());
+  fmt::print("this Seam: plugin ABI {}.{}, headers {}, {}\n", plugin_abi_major, plugin_abi_minor,
+             host_headers(), host_fingerprint());
   return ok;
 }
 

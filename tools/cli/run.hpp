@@ -44,7 +44,13 @@ struct SceneOutcome {
 
 /// A scene whose solution failed, though the scene itself is well.
 class RunFailure : public Error {
-  using Error::Error;
+ public:
+  /// @param code of the command: `failed`, or `plugin_failure` where a plugin is to blame
+  RunFailure(const std::string& message, ExitCode code) : Error(message), code_(code) {}
+  [[nodiscard]] ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
 };
 
 /// Loads, runs, checks and records a scene; writes summary.json. Collective.

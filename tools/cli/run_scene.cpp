@@ -8,6 +8,7 @@
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
 #include "seam/base/policy.hpp"
+#include "seam/base/plugin_fault.hpp"
 #include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
 #include "seam/output/results_folder.hpp"
@@ -180,9 +181,10 @@ SceneOutcome run_scene(const SceneRun& run) {
   options.time_limit = std::min(run.time_limit, policy().limits.seconds);
   try {
     outcome.results = simulation.run(options);
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
     if (!folder.has_begun()) throw;
-    throw RunFailure(record_failure(simulation, folder, communicator));
+    const bool is_plugins = dynamic_cast<const PluginFault*>(&error) != nullptr;
+    throw RunFailure(record_failure(simulation, folder, communicator), is_plugins ? plugin_failure : failed);
   }
   outcome.interruption = simulation.interruption();
   if (!run.stop_after && !outcome.interruption)

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "crash.hpp"
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/communicator.hpp"
 #include "seam/base/stopwatch.hpp"
@@ -64,6 +65,7 @@ void start_mpi() {
     mine.push_back(name);
   }
   MPI_Init(nullptr, nullptr);
+  explain_crashes();  // after MPI, whose own handlers print addresses
   for (const char* name : mine) unsetenv(name);
 }
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+
+#include "seam/assembly/binding.hpp"
+#include "seam/base/plugin_fault.hpp"
 
 namespace seam {
 
@@ -27,22 +29,17 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
                                    Role role)
     : domain_(&domain), role_(role) {
   dim_ = domain.fields().front()->mesh().dimension();
+  for (const BoundTerm& bound : terms) check_binding(bound, domain);
   find_parts(domain, terms);
   operators_.resize(parts_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
     Compiled compiled{bound, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
-    if (compiled.columns > 256) throw std::logic_error("a term reads more than 256 numbers per point");
-    if (bound.operands.size() < s.components.size())
-      throw std::logic_error(fmt::format("a term on {} speaks of {} unknowns but {} were bound",
-                                         domain.description(), s.components.size(), bound.operands.size()));
+    if (compiled.columns > 256)
+      throw PluginFault(bound.where, describe(bound, domain) + " reads more than 256 numbers per point");
     for (std::size_t k = 0; k < s.components.size(); ++k) {
       const Operand& operand = bound.operands[k];
       const Field::Place place = domain.fields().at(operand.side)->place(operand.unknown);
-      if (place.components != s.components[k])
-        throw std::logic_error(fmt::format("unknown '{}' has {} components, the term on {} expects {}",
-                                           operand.unknown, place.components, domain.description(),
-                                           s.components[k]));
       const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) {
         return p.side == operand.side && p.block == place.block;
       });
@@ -55,8 +52,9 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
         operators.needs_normal |= slot.shape == Shape::normal_derivative;
         operators.needs_second_normal |= slot.shape == Shape::second_normal_derivative;
         if (!movers_.empty() && operators.needs_normal)
-          throw std::logic_error("a term on " + domain.description() +
-                                 " reads normal derivatives: use gradient and normal where points move");
+          throw PluginFault(bound.where,
+                            describe(bound, domain) +
+                                " reads normal derivatives: use gradient and normal where points move");
         level_used_[static_cast<int>(slot.level)] = true;
       }
     terms_.push_back(std::move(compiled));
@@ -281,8 +279,15 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   const int columns = term.columns + batch.moves;
   point_residual_.resize(static_cast<std::size_t>(element_.points) * term.outputs);
   point_tangent_.resize(point_residual_.size() * columns);
-  term.bound.term->evaluate(batch, point_residual_.data(),
-                            with_tangent && columns > 0 ? point_tangent_.data() : nullptr);
+  try {
+    term.bound.term->evaluate(batch, point_residual_.data(),
+                              with_tangent && columns > 0 ? point_tangent_.data() : nullptr);
+  } catch (const StepRefused&) {
+    throw;
+  } catch (...) {
+    throw PluginFault(term.bound.where, fmt::format("{} failed {}: {}", describe(term.bound, *domain_),
+                                                    place_of(0), text_of_exception()));
+  }
 }
 
 void ElementEvaluator::add_residual(const Compiled& term) {

@@ -10,6 +10,7 @@
 
 #include "seam/assembly/contraction.hpp"
 #include "seam/assembly/element.hpp"
+#include "seam/base/diagnostics.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
@@ -40,6 +41,7 @@ struct BoundTerm {
     int side, region;
   };
   std::vector<Region> regions = {};
+  Location where = {};  ///< in the scene: the field or coupling that the term belongs to
   /// Whether the term holds on an element.
   [[nodiscard]] bool holds(const Element& element) const {
     return std::ranges::all_of(regions, [&](const Region& r) {
@@ -133,6 +135,7 @@ class ElementEvaluator {
   void gather();
   void add_change_to_magnitude();
   [[nodiscard]] std::string describe_not_finite(const Compiled& term) const;
+  [[nodiscard]] std::string place_of(int point) const;
   void compute_inputs(const Compiled& term);
   void evaluate(const Compiled& term, const TimePoint& at, bool with_tangent);
   void add_residual(const Compiled& term);

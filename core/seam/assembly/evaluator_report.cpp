@@ -4,8 +4,7 @@
 
 #include <cmath>
 
-#include "seam/assembly/evaluator.hpp"
-#include "seam/term/term_name.hpp"
+#include "seam/assembly/binding.hpp"
 
 namespace seam {
 namespace {
@@ -52,13 +51,12 @@ std::string ElementEvaluator::describe_not_finite(const Compiled& term) const {
     point = first_bad(point_tangent_, element_.points, outputs * static_cast<std::size_t>(columns));
   }
   if (point < 0) return "";
-  std::vector<std::string> unknowns;
-  for (const Operand& operand : term.bound.operands)
-    unknowns.push_back(fmt::format("{}.{}", domain_->fields().at(operand.side)->name(), operand.unknown));
+  return fmt::format(" {} {} no finite number {}", describe(term.bound, *domain_), what, place_of(point));
+}
+
+std::string ElementEvaluator::place_of(int point) const {
   const double* x = &element_.sides[0].position[static_cast<std::size_t>(point) * dim_];
-  return fmt::format(" the term '{}' of {} on {} {} no finite number in cell {} at ({:.6g})",
-                     term_name(*term.bound.term), fmt::join(unknowns, ", "), domain_->description(), what,
-                     element_.sides[0].global_cell, fmt::join(x, x + dim_, ", "));
+  return fmt::format("in cell {} at ({:.6g})", element_.sides[0].global_cell, fmt::join(x, x + dim_, ", "));
 }
 
 }  // namespace seam

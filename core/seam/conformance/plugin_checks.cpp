@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "seam/base/plugin_fault.hpp"
 #include "seam/scene/explain.hpp"
 #include "seam/scene/json_schema.hpp"
 #include "seam/scene/validate.hpp"
@@ -36,7 +37,29 @@ void find_bad_defaults(const Schema& schema, const Registry& registry, int dimen
     if (p.sub) find_bad_defaults(*p.sub, registry, dimension, path + "." + p.name, bad);
 }
 
-ConformanceCheck check_schema(const Registry::Entry& entry, const Registry& registry) {
+/// What keys point to that does not exist: a thing of the scene that there is no kind of, a kind of types
+/// that no plugin has.
+void find_bad_targets(const Schema& schema, const std::set<std::string>& kinds, const std::string& path,
+                      std::vector<std::string>& bad) {
+  static const std::set<std::string> things{"mesh", "field", "interface"};
+  static const std::set<std::string> parts{"boundary", "region"};
+  for (const Parameter& p : schema.parameters()) {
+    const std::string target = p.target.substr(0, p.target.find(':'));
+    const std::string key = path + p.name;
+    const bool is_typed =
+        p.kind == ValueKind::typed || p.kind == ValueKind::typed_list || p.kind == ValueKind::typed_map;
+    if (is_typed && !kinds.contains(target))
+      bad.push_back(
+          fmt::format("'{}' takes a '{}'; no plugin that is found has types of this kind", key, target));
+    if (!is_typed && !target.empty() && !things.contains(target) && !parts.contains(target))
+      bad.push_back(fmt::format("'{}' names a '{}'; there are {}, {}", key, target, fmt::join(things, ", "),
+                                fmt::join(parts, ", ")));
+    if (p.sub) find_bad_targets(*p.sub, kinds, key + ".", bad);
+  }
+}
+
+ConformanceCheck check_schema(const Registry::Entry& entry, const Registry& registry,
+                              const std::set<std::string>& kinds) {
   std::vector<std::string> problems;
   if (entry.schema.summary().empty()) problems.push_back("the type has no summary");
   std::vector<std::string> silent;
@@ -44,6 +67,7 @@ ConformanceCheck check_schema(const Registry::Entry& entry, const Registry& regi
   if (!silent.empty()) problems.push_back(fmt::format("keys without help: {}", fmt::join(silent, ", ")));
   for (const int dimension : {2, 3})
     find_bad_defaults(entry.schema, registry, dimension, entry.name, problems);
+  find_bad_targets(entry.schema, kinds, "", problems);
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
   const std::string page = explain(entry);
@@ -126,15 +150,19 @@ std::vector<ConformanceCheck> check_plugin(const PluginHost::Found& plugin, Plug
     std::vector<std::string> together = plugin.info.required_plugins;
     together.push_back(plugin.name);
     host.load(together, registry);
-  } catch (const PluginError& error) {
-    checks.push_back(conformance_check("registration", false, error.what()));
+  } catch (...) {
+    checks.push_back(conformance_check("registration", false, text_of_exception()));
     return checks;
   }
   checks.push_back(conformance_check(
       "registration", true,
       fmt::format("registers the {} types it declares, no others", plugin.info.provides.size())));
+  std::set<std::string> kinds;
+  for (const Registry::Entry& entry : registry.entries()) kinds.insert(entry.kind);
+  for (const PluginHost::Found& other : host.scan())
+    for (const auto& [kind, type] : other.info.provides) kinds.insert(kind);
   for (const Registry::Entry& entry : registry.entries())
-    if (entry.plugin == plugin.name) checks.push_back(check_schema(entry, registry));
+    if (entry.plugin == plugin.name) checks.push_back(check_schema(entry, registry, kinds));
   checks.push_back(check_json_schema(plugin.info, registry));
   return checks;
 }

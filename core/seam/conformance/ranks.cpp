@@ -8,9 +8,13 @@
 
 #include "seam/conformance/finite_difference.hpp"
 #include "seam/conformance/scene_checks.hpp"
+#include "seam/run/checks.hpp"
+#include "seam/scene/expression.hpp"
 
 namespace seam {
 namespace {
+
+constexpr double tolerance = 1e-8;
 
 using Series = std::map<std::string, std::vector<double>>;
 
@@ -38,17 +42,58 @@ double largest(const std::vector<double>& values) {
 /// "tip" of "tip.x": the components of a vector share a scale.
 std::string group_of(const std::string& name) { return name.substr(0, name.rfind('.')); }
 
-/// Largest difference, relative to the size of the series; components that are zero but for rounding are
-/// measured by the others of their vector.
-std::pair<double, std::string> difference(const Series& expected, const Series& found) {
-  std::map<std::string, double> group;
-  for (const auto& [name, values] : expected)
-    group[group_of(name)] = std::max(group[group_of(name)], largest(values));
+/// The size of what a formula is made of: how much it changes with each of the series that it names, times
+/// their size, where that is largest.
+double size_of_formula(const std::string& formula, const Series& series,
+                       const std::map<std::string, double>& parameters) {
+  constexpr double part = 1e-3;
+  const auto value = [&](std::size_t k, const std::string& changed) {
+    std::map<std::string, double> known = parameters;
+    for (const auto& [name, values] : series) {
+      std::string spelled = name;
+      std::replace(spelled.begin(), spelled.end(), '.', '_');
+      known[spelled] = values[k] * (name == changed ? 1 + part : 1);
+    }
+    known["t"] = series.at("time")[k];
+    return evaluate_formula(formula, known);
+  };
+  double most = 0;
+  for (std::size_t k = 0; k < series.at("time").size(); ++k) {
+    const double here = value(k, "");
+    double size = 0;
+    for (const auto& entry : series) size += std::abs(value(k, entry.first) - here) / part;
+    if (std::isfinite(size)) most = std::max(most, size);
+  }
+  return most;
+}
+
+/// What differences of a series are measured by.
+std::map<std::string, double> sizes(const Scene& scene, const Series& series) {
+  std::map<std::string, double> group, result;
+  for (const auto& [name, values] : series) {
+    double& of_group = group[group_of(name)];
+    of_group = std::max(of_group, largest(values));
+  }
+  for (const auto& entry : series) result[entry.first] = group[group_of(entry.first)];
+  for (const auto& [name, p] : scene.root.object("output").map("formulas"))
+    if (result.contains(name))
+      result[name] = std::max(result[name], size_of_formula(p.text("value"), series, scene.parameters));
+  for (const Parameters& check : scene.root.list("checks")) {
+    const auto found = result.find(check.text("that"));
+    if (found == result.end() || !check.has("within") || check.number("is") != 0) continue;
+    found->second = std::max(found->second, allowed_deviation(check, 0) / tolerance);
+  }
+  return result;
+}
+
+/// Largest difference, relative to these sizes.
+std::pair<double, std::string> difference(const Series& expected, const Series& found,
+                                          const std::map<std::string, double>& size) {
   std::pair<double, std::string> worst{0, ""};
   for (const auto& [name, values] : expected) {
     const auto other = found.find(name);
     if (other == found.end() || other->second.size() != values.size()) return {INFINITY, name};
-    const double scale = std::max(largest(values), 1e-6 * group[group_of(name)]);
+    const double scale = size.at(name);
     for (std::size_t k = 0; k < values.size(); ++k) {
       const double error = std::abs(other->second[k] - values[k]);
       const double relative = error == 0 ? 0.0 : worse(0, error / scale);
@@ -60,13 +105,14 @@ std::pair<double, std::string> difference(const Series& expected, const Series& 
 
 }  // namespace
 
-ConformanceCheck check_ranks(const std::vector<std::filesystem::path>& files, const std::vector<int>& ranks) {
-  constexpr double tolerance = 1e-8;
+ConformanceCheck check_ranks(const Scene& scene, const std::vector<std::filesystem::path>& files,
+                             const std::vector<int>& ranks) {
   const Series expected = read_series(files.at(0));
+  const std::map<std::string, double> size = sizes(scene, expected);
   double worst = 0;
   std::string where;
   for (std::size_t k = 1; k < files.size(); ++k) {
-    const auto [relative, name] = difference(expected, read_series(files[k]));
+    const auto [relative, name] = difference(expected, read_series(files[k]), size);
     if (relative > worst) where = fmt::format("; worst in {} on {} ranks", name, ranks[k]);
     worst = std::max(worst, relative);
   }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "seam/conformance/check.hpp"
@@ -18,13 +20,17 @@ Overrides conformance_overrides();
 /// step (to the bit), a restart in the middle (to the bit). One rank only.
 /// @param scene loaded with conformance_overrides()
 /// @param folder for results; created
+/// @param begins told what is done next: it is what a plugin crashes in
 std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& registry,
-                                          const std::filesystem::path& folder);
+                                          const std::filesystem::path& folder,
+                                          const std::function<void(const std::string&)>& begins);
 
-/// Compares the series of runs on several numbers of ranks with those of the first, to 1e-8 of each series'
-/// size.
+/// Compares the series of runs on several numbers of ranks with those of the first, to 1e-8 of their size: of
+/// a component that of its whole vector or tensor; of a formula what its operands make up, since a balance is
+/// zero but for rounding; and what a check of the scene says is near enough (`within`).
 /// @param files series.csv of each run
 /// @param ranks of each run
-ConformanceCheck check_ranks(const std::vector<std::filesystem::path>& files, const std::vector<int>& ranks);
+ConformanceCheck check_ranks(const Scene& scene, const std::vector<std::filesystem::path>& files,
+                             const std::vector<int>& ranks);
 
 }  // namespace seam

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/plugin/headers.hpp"
 
 namespace seam {
 
@@ -99,6 +100,7 @@ PluginInfo info_of(const PluginDescriptor& raw) {
   info.version = text_of(raw.version, "version");
   info.licence = text_of(raw.licence, "licence");
   info.fingerprint = text_of(raw.fingerprint, "fingerprint");
+  info.headers = text_of(raw.headers, "hash of headers");
   info.required_plugins = words(text_of(raw.requires_plugins, "list of required plugins"));
   for (const std::string& word : words(text_of(raw.provides, "list of types"))) {
     const std::size_t colon = word.find(':');
@@ -129,11 +131,12 @@ PluginInfo parse_descriptor(const std::string& bytes) {
     throw Error("its section .note.seam holds no plugin descriptor (wrong magic)");
   }
   if (raw.abi_major == plugin_abi_major) {
-    if (raw.size < sizeof raw || note->size() < start + sizeof raw) {
-      throw Error(fmt::format("its plugin descriptor has {} bytes, expected at least {}",
-                              std::min<std::size_t>(raw.size, note->size() - start), sizeof raw));
-    }
-    std::memcpy(static_cast<void*>(&raw), note->data() + start, sizeof raw);
+    // An older minor version has fewer members, a newer one more.
+    constexpr std::size_t least = offsetof(PluginDescriptor, headers);
+    const std::size_t present = std::min<std::size_t>(raw.size, note->size() - start);
+    if (present < (raw.abi_minor == 0 ? least : sizeof raw))
+      throw Error(fmt::format("its plugin descriptor has {} bytes, expected at least {}", present, least));
+    std::memcpy(static_cast<void*>(&raw), note->data() + start, std::min(present, sizeof raw));
   }
   return info_of(raw);
 }
@@ -149,6 +152,8 @@ PluginInfo read_descriptor(const std::filesystem::path& file) {
   if (!stream) throw Error("cannot be read");
   return parse_descriptor(bytes);
 }
+
+std::string host_headers() { return SEAM_HEADERS; }
 
 std::string host_fingerprint() { return SEAM_FINGERPRINT; }
 

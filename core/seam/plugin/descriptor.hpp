@@ -14,9 +14,10 @@
 namespace seam {
 
 /// Changes when a plugin must be rebuilt (major), or when something is added that older plugins do not miss
-/// (minor).
+/// (minor). Which public headers go with a number, abi.txt in this folder says by a hash, which
+/// tools/headers.py writes there.
 inline constexpr std::uint16_t plugin_abi_major = 9;
-inline constexpr std::uint16_t plugin_abi_minor = 0;
+inline constexpr std::uint16_t plugin_abi_minor = 1;
 
 /// Describes a plugin without running any of its code: it lies in an ELF note section of the shared library
 /// and is read from the file. Texts end with a zero byte. Later minor versions may append members.
@@ -31,6 +32,7 @@ struct PluginDescriptor {
   char requires_plugins[256] = "";  ///< names, separated by spaces
   char fingerprint[256] = "";       ///< SEAM_FINGERPRINT
   char provides[4096] = "";         ///< "kind:name" of each registered type, separated by spaces
+  char headers[64] = "";            ///< SEAM_HEADERS, a hash of the public headers; since 9.1
 };
 
 /// An ELF note that holds a descriptor.
@@ -51,6 +53,7 @@ struct PluginInfo {
   std::string version;
   std::string licence;
   std::string fingerprint;
+  std::string headers;  ///< "" before ABI 9.1
   std::vector<std::string> required_plugins;
   std::vector<std::pair<std::string, std::string>> provides;  ///< kind, name
 
@@ -66,6 +69,9 @@ PluginInfo parse_descriptor(const std::string& bytes);
 
 /// The fingerprint of this Seam.
 std::string host_fingerprint();
+
+/// The hash of this Seam's public headers.
+std::string host_headers();
 
 /// The parts in which two fingerprints differ: "trilinos=13.2 (expected 14.0)".
 std::string fingerprint_difference(const std::string& found, const std::string& expected);

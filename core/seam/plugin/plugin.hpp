@@ -10,6 +10,7 @@
 ///     }
 
 #include "seam/plugin/descriptor.hpp"
+#include "seam/plugin/headers.hpp"
 #include "seam/plugin/registry.hpp"
 
 // NOLINTBEGIN(bugprone-macro-parentheses): the argument is the name of a parameter.
@@ -26,6 +27,7 @@
                                                                    .licence = SEAM_PLUGIN_LICENSE,           \
                                                                    .requires_plugins = SEAM_PLUGIN_REQUIRES, \
                                                                    .fingerprint = SEAM_FINGERPRINT,          \
-                                                                   .provides = SEAM_PLUGIN_PROVIDES}};       \
+                                                                   .provides = SEAM_PLUGIN_PROVIDES,         \
+                                                                   .headers = SEAM_HEADERS}};                \
   void seam_plugin_declare(seam::Registry& registry)
 // NOLINTEND(bugprone-macro-parentheses)

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -127,6 +128,11 @@ std::optional<PluginFailure> incompatible(const PluginHost::Found& plugin) {
     failure.found = "built with " + fingerprint_difference(info.fingerprint, host_fingerprint());
     failure.expected = host_fingerprint();
     failure.hint = "build the plugin with the compiler and the libraries of this Seam";
+  } else if (info.abi_minor == plugin_abi_minor && info.headers != host_headers()) {
+    failure.found = fmt::format("built against other headers of the same version (their hash: {})",
+                                info.headers.empty() ? "none" : info.headers);
+    failure.expected = fmt::format("headers with the hash {}", host_headers());
+    failure.hint = "build the plugin again against the headers that were installed with this Seam";
   } else if (const std::string reason = insecurity_of_library(plugin.file); !reason.empty()) {
     failure.found = "a file that others may change: " + reason;
     failure.expected = "a file that belongs to you or to root, and that only its owner can change";
@@ -288,25 +294,32 @@ void PluginHost::add_folder(const std::filesystem::path& folder) {
 }
 
 std::vector<PluginHost::Found> PluginHost::scan() const {
-  std::vector<Found> result;
-  std::set<std::string> names;
+  std::map<std::string, Found> result;
   for (const fs::path& folder : folders_) {
     std::error_code code;
     for (auto it = fs::directory_iterator(folder, code); !code && it != fs::directory_iterator();
          it.increment(code)) {
       const std::string name = plugin_name(it->path());
-      if (name.empty() || names.count(name) > 0) continue;
-      names.insert(name);
-      Found& found = result.emplace_back(Found{name, it->path(), {}, ""});
+      if (name.empty()) continue;
+      Found found{name, it->path(), {}, ""};
       try {
         found.info = read_descriptor(found.file);
       } catch (const Error& e) {
         found.problem = e.what();
       }
+      const auto [known, is_new] = result.try_emplace(name, found);
+      if (is_new) continue;
+      // A stale one must not hide one that can be used.
+      if (!known->second.why_not().empty() && found.why_not().empty()) {
+        found.hidden = std::move(known->second.hidden);
+        std::swap(found, known->second);
+      }
+      known->second.hidden.push_back(found.file);
     }
   }
-  std::sort(result.begin(), result.end(), [](const Found& a, const Found& b) { return a.name < b.name; });
-  return result;
+  std::vector<Found> list;
+  for (auto& [name, found] : result) list.push_back(std::move(found));
+  return list;
 }
 
 bool PluginHost::is_loaded(const std::string& name) const {

@@ -44,6 +44,8 @@ class PluginHost {
     std::filesystem::path file;
     PluginInfo info;
     std::string problem;  ///< why its descriptor cannot be read, or ""
+    /// Files of the same name in other folders, which are not used.
+    std::vector<std::filesystem::path> hidden = {};
 
     /// Why it cannot be used in this Seam, as far as its descriptor tells; "" when it can.
     [[nodiscard]] std::string why_not() const;
@@ -61,8 +63,8 @@ class PluginHost {
   /// Folders that are not searched, each with the reason.
   [[nodiscard]] const std::vector<std::string>& refused() const { return refused_; }
 
-  /// All plugins on the search path, by name; of two with the same name the first one counts. Runs no code of
-  /// theirs.
+  /// All plugins on the search path, by name; of two with the same name the first one that can be used
+  /// counts. Runs no code of theirs.
   [[nodiscard]] std::vector<Found> scan() const;
 
   /// Loads the named plugins and lets them register their types. Those already loaded are left alone.

@@ -24,6 +24,11 @@ std::vector<std::string> Registry::names(const std::string& kind) const {
   return result;
 }
 
+std::string Registry::describe(const Entry& entry) {
+  return fmt::format("{} '{}'{}", entry.kind, entry.name,
+                     entry.plugin == "core" ? "" : fmt::format(" of plugin '{}'", entry.plugin));
+}
+
 void Registry::remove_plugin(const std::string& name) {
   std::erase_if(entries_, [&](const Entry& e) { return e.plugin == name; });
 }

@@ -7,6 +7,7 @@
 #include <typeindex>
 #include <vector>
 
+#include "seam/base/plugin_fault.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/scene/schema.hpp"
 
@@ -38,13 +39,18 @@ class Registry {
   }
 
   /// Builds an object of the type that `parameters.type()` names.
-  /// @throws Error when the kind has no such type or it implements another interface.
+  /// @throws Error when the kind has no such type or it implements another interface;
+  /// PluginFault when the plugin's code throws what is no seam::Error.
   template <class Interface>
   std::unique_ptr<Interface> create(const std::string& kind, const Parameters& parameters) const {
     const Entry& entry = require(kind, parameters.type(), typeid(Interface), parameters.where());
-    return (*static_cast<const Factory<Interface>*>(entry.factory.get()))(parameters, *this);
+    return call_plugin(
+        parameters.where(), [&] { return describe(entry); },
+        [&] { return (*static_cast<const Factory<Interface>*>(entry.factory.get()))(parameters, *this); });
   }
 
+  /// "coupling 'contact' of plugin 'nitsche_fsci'", for messages.
+  [[nodiscard]] static std::string describe(const Entry& entry);
   [[nodiscard]] const Entry* find(const std::string& kind, const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names(const std::string& kind) const;
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }

@@ -10,10 +10,8 @@
 #include "seam/base/diagnostics.hpp"
 
 namespace seam {
-namespace {
 
-/// Reads "0.1%" (relative) or "1e-3" (absolute).
-double tolerance(const Parameters& check, double reference) {
+double allowed_deviation(const Parameters& check, double reference) {
   const std::string& text = check.text("within");
   std::size_t used = 0;
   double value = 0;
@@ -28,6 +26,8 @@ double tolerance(const Parameters& check, double reference) {
                 fmt::format("`within: {}` is no deviation; write it as 0.1% or as a plain number", text));
   return rest == "%" ? value / 100 * std::abs(reference) : value;
 }
+
+namespace {
 
 CheckResult evaluate(const Parameters& check, const Results& results) {
   CheckResult result;
@@ -45,7 +45,7 @@ CheckResult evaluate(const Parameters& check, const Results& results) {
     const double reference = check.number("is");
     if (!check.has("within")) throw Error(check.where("is"), "a check with `is` needs `within`");
     result.is = reference;
-    const double allowed = tolerance(check, reference);
+    const double allowed = allowed_deviation(check, reference);
     result.deviation = (result.value - reference) / (reference == 0 ? 1 : std::abs(reference));
     result.passed = result.passed && std::abs(result.value - reference) <= allowed;
     expected.push_back(fmt::format("{:.7g} within {}", reference, check.text("within")));

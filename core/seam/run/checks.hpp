@@ -21,6 +21,10 @@ struct CheckResult {
   std::string source;
 };
 
+/// How far a check's number may be from its reference: "0.1%" is relative to that, "1e-3" absolute.
+/// @throws Error for what is no deviation
+double allowed_deviation(const Parameters& check, double reference);
+
 /// Compares the results of a run with the `checks` of its scene. Results that are no number fail, too,
 /// whether or not a check asks for them.
 /// @throws Error naming the place of a check whose quantity the run does not have

@@ -9,10 +9,12 @@
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
 #include "seam/base/policy.hpp"
+#include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"
 #include "seam/run/derived.hpp"
+#include "seam/run/error_list.hpp"
 #include "seam/run/error_norms.hpp"
 #include "seam/run/interruption.hpp"
 #include "seam/run/progress.hpp"
@@ -64,9 +66,11 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
       NewtonOptions{newton.number("tolerance"), newton.number("increment_tolerance"),
                     static_cast<int>(newton.integer("maximum_iterations")), newton.boolean("damping")},
       stepper_);
+  ErrorList errors(communicator_);
   for (const auto& [name, parameters] : scene.root.object("output").map("probes"))
-    probes_.emplace_back(name, parameters, problem_);
-  check_output();
+    errors.attempt([&, &called = name, &of = parameters] { probes_.emplace_back(called, of, problem_); });
+  check_output(errors);
+  errors.throw_if_any();
   timings_.setup = watch.seconds();
 }
 
@@ -90,8 +94,11 @@ void require_allowed_unknowns(const Physics& physics, const MeshData& mesh, cons
 void Simulation::build_fields(const Registry& registry) {
   meshes_ = load_meshes(scene_);
   check_mesh_names(scene_, registry, mesh_names(meshes_));
+  ErrorList errors(communicator_);
   for (const auto& [name, parameters] : scene_.root.map("interfaces"))
-    interfaces_.emplace_back(name, registry.create<Interface>("interface", parameters));
+    errors.attempt([&, &called = name, &of = parameters] {
+      interfaces_.emplace_back(called, registry.create<Interface>("interface", of));
+    });
   std::map<std::string, std::shared_ptr<const Mesh>> meshes;
   for (const auto& [name, parameters] : scene_.root.map("fields")) {
     const std::string& mesh = parameters.text("mesh");
@@ -100,11 +107,24 @@ void Simulation::build_fields(const Registry& registry) {
           fmt::format("the distributed mesh '{}' ({} cells)", mesh, meshes_.at(mesh)->cell_count()),
           parameters.where(),
           [&] { return std::make_shared<Mesh>(mesh, meshes_.at(mesh), communicator_, cell_costs(mesh)); });
-    auto physics = registry.create<Physics>("field", parameters);
-    require_allowed_unknowns(*physics, *meshes_.at(mesh), parameters.where());
-    needing_memory(fmt::format("the unknowns of the field '{}'", name), parameters.where(),
-                   [&, &field = name] { problem_.add_field(field, meshes[mesh], std::move(physics)); });
+    errors.attempt([&, &called = name, &of = parameters] {
+      needing_memory(fmt::format("the unknowns of the field '{}'", called), of.where(),
+                     [&] { add_field(called, of, meshes[mesh], registry); });
+    });
   }
+  errors.throw_if_any();
+}
+
+void Simulation::add_field(const std::string& name, const Parameters& parameters,
+                           const std::shared_ptr<const Mesh>& mesh, const Registry& registry) {
+  auto physics = registry.create<Physics>("field", parameters);
+  const std::string plugin = plugin_of(*physics);
+  call_plugin(
+      parameters.where(), [&] { return fmt::format("field '{}'{}", name, plugin); },
+      [&] {
+        require_allowed_unknowns(*physics, mesh->whole(), parameters.where());
+        problem_.add_field(name, mesh, std::move(physics), parameters.where());
+      });
 }
 
 /// What the cells of a mesh cost, from the bodies that cut it at the start; empty where they all cost the
@@ -217,16 +237,23 @@ void Simulation::build_couplings(const Registry& registry) {
   std::vector<std::pair<Parameters, std::unique_ptr<Coupling>>> couplings;
   const int dimension = static_cast<int>(scene_.root.integer("dimension"));
   std::map<std::string, int> extra_degree;  // by interface
-  for (const Parameters& parameters : scene_.root.list("coupling")) {
-    couplings.emplace_back(parameters, registry.create<Coupling>("coupling", parameters));
-    int& most = extra_degree[parameters.text("on")];
-    most = std::max(most, couplings.back().second->extra_degree(dimension));
-  }
+  ErrorList errors(communicator_);
+  for (const Parameters& parameters : scene_.root.list("coupling"))
+    errors.attempt([&] {
+      couplings.emplace_back(parameters, registry.create<Coupling>("coupling", parameters));
+      int& most = extra_degree[parameters.text("on")];
+      most = std::max(most, couplings.back().second->extra_degree(dimension));
+    });
   std::map<std::string, Built> interfaces;
   for (const auto& [name, interface] : interfaces_) {
     Setup setup(*this, interface->fields(), extra_degree[name]);
-    auto parts = needing_memory(fmt::format("the interface '{}'", name), place_of(scene_, "interfaces", name),
-                                [&, &of = interface] { return of->build(setup); });
+    const Location where = place_of(scene_, "interfaces", name);
+    auto parts =
+        needing_memory(fmt::format("the interface '{}'", name), where, [&, &called = name, &of = interface] {
+          return call_plugin(
+              where, [&] { return fmt::format("interface '{}'{}", called, plugin_of(*of)); },
+              [&] { return of->build(setup); });
+        });
     interfaces[name] = {std::move(parts), setup.sides};
     problem_.name_interface(name, interfaces[name].parts);
   }
@@ -234,13 +261,18 @@ void Simulation::build_couplings(const Registry& registry) {
   for (const auto& [parameters, coupling] : couplings)
     for (const auto& [name, interface] : interfaces_)
       if (name == parameters.text("on")) neighbours.push_back({parameters, interface->fields()});
-  for (std::size_t k = 0; k < couplings.size(); ++k) couplings[k].second->check_beside(neighbours, k);
+  for (std::size_t k = 0; k < couplings.size(); ++k)
+    errors.attempt([&] { couplings[k].second->check_beside(neighbours, k); });
   for (const auto& [parameters, coupling] : couplings) {
     const Built& built = interfaces.at(parameters.text("on"));
-    try {
+    const auto describe = [&, &of = parameters, &asked = coupling] {
+      return fmt::format("coupling '{}' on '{}'{}", of.type(), of.text("on"), plugin_of(*asked));
+    };
+    const auto add = [&, &parameters = parameters, &coupling = coupling] {
       CouplingSides sides{{built.sides.begin(), built.sides.end()}, std::vector<int>(built.sides.size(), 0)};
       const auto bind = [&](const Coupling::SideTerm& term) {
-        BoundTerm bound{term.term, term.operands, {-1, -1}, regions_of(term, sides)};
+        if (!term.term) throw PluginFault(parameters.where(), describe() + " gives a term that is null");
+        BoundTerm bound{term.term, term.operands, {-1, -1}, regions_of(term, sides), parameters.where()};
         for (std::size_t k = 0; k < term.constants.size(); ++k) {
           const auto& [side, constant] = term.constants[k];
           bound.constants.at(k) = built.part(term.part)->add_constant(side, constant, sides.regions.at(side));
@@ -264,10 +296,10 @@ void Simulation::build_couplings(const Registry& registry) {
       } while (next_regions(sides));
       for (InterfaceMeasure& measure : measures) problem_.add_measure(std::move(measure));
       for (auto& [part, of_part] : terms) problem_.add_coupling(built.part(part), std::move(of_part));
-    } catch (const Error& error) {
-      throw Error(parameters.where(), error.what());
-    }
+    };
+    errors.attempt([&, &of = parameters] { call_plugin(of.where(), describe, add); });
   }
+  errors.throw_if_any();
 }
 
 /// The restart point to go on from, "" when the run starts afresh. Collective.
@@ -317,24 +349,30 @@ void Simulation::require_held() {
   problem_.check_levels();
 }
 
-void Simulation::check_output() {
+void Simulation::check_output(ErrorList& errors) {
   const Parameters& output = scene_.root.object("output");
-  if (output.boolean("interfaces") &&
-      std::ranges::all_of(problem_.measures(), [](const InterfaceMeasure& m) { return m.shares.empty(); }))
-    throw Error(
-        output.where("interfaces"),
-        "interfaces: no coupling measures anything on its interface, so that there is nothing to write");
-  if (output.boolean("cut") &&
-      std::ranges::none_of(problem_.fields(), [](const FieldEntry& entry) { return entry.cut != nullptr; }))
-    throw Error(output.where("cut"),
-                "cut: no interface cuts a body out of a field, so that there is no cut to write");
+  errors.attempt([&] {
+    if (output.boolean("interfaces") &&
+        std::ranges::all_of(problem_.measures(), [](const InterfaceMeasure& m) { return m.shares.empty(); }))
+      throw Error(
+          output.where("interfaces"),
+          "interfaces: no coupling measures anything on its interface, so that there is nothing to write");
+  });
+  errors.attempt([&] {
+    if (output.boolean("cut") &&
+        std::ranges::none_of(problem_.fields(), [](const FieldEntry& entry) { return entry.cut != nullptr; }))
+      throw Error(output.where("cut"),
+                  "cut: no interface cuts a body out of a field, so that there is no cut to write");
+  });
   if (!output.has("picture")) return;
   const Parameters& picture = output.object("picture");
-  try {
-    static_cast<void>(find_quantity(problem_.field(picture.text("field")), picture.text("quantity")));
-  } catch (const Error& error) {
-    throw Error(picture.where("quantity"), error.what());
-  }
+  errors.attempt([&] {
+    try {
+      static_cast<void>(find_quantity(problem_.field(picture.text("field")), picture.text("quantity")));
+    } catch (const Error& error) {
+      throw Error(picture.where("quantity"), error.what());
+    }
+  });
 }
 
 void Simulation::start(const RunOptions& options) {

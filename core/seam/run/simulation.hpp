@@ -24,6 +24,8 @@
 
 namespace seam {
 
+class ErrorList;
+
 struct RunOptions {
   /// Where results go; none: to `folder`, which is opened for this run alone, as `resume` says.
   ResultsFolder* results = nullptr;
@@ -100,9 +102,11 @@ class Simulation {
   class Setup;
   void build_fields(const Registry& registry);
   [[nodiscard]] std::vector<double> cell_costs(const std::string& mesh) const;
+  void add_field(const std::string& name, const Parameters& parameters,
+                 const std::shared_ptr<const Mesh>& mesh, const Registry& registry);
   void build_couplings(const Registry& registry);
   void start(const RunOptions& options);
-  void check_output();
+  void check_output(ErrorList& errors);
   [[nodiscard]] std::filesystem::path choose_restart();
   void announce_start(bool resumed) const;
   void open_outputs(double resume_time);

@@ -145,6 +145,17 @@ void check_output_folder(const Scene& scene, Diagnostics& diagnostics) {
                   folder.string()));
 }
 
+void warn_of_hidden_plugins(const YamlNode& root, const PluginHost& host, Diagnostics& diagnostics) {
+  const YamlNode* node = root.find("plugins");
+  for (const PluginHost::Found& plugin : host.loaded())
+    for (const std::filesystem::path& hidden : plugin.hidden)
+      diagnostics.warning(
+          node ? node->where() : Location{},
+          fmt::format("plugins: '{}' is taken from '{}'; '{}', of the same name, is not used; "
+                      "remove one of them",
+                      plugin.name, plugin.file.string(), hidden.string()));
+}
+
 }  // namespace
 
 void apply_overrides(YamlNode& root, const Overrides& overrides) {
@@ -173,6 +184,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
   load_plugins(root, scene, host, registry);
 
   Diagnostics diagnostics;
+  warn_of_hidden_plugins(root, host, diagnostics);
   if (YamlNode* parameters = root.find("parameters"); parameters && parameters->kind == Kind::map) {
     scene.parameters = evaluate_parameters(*parameters, diagnostics);
     // What is wrong here is reported now; the validation of the block would say it again.

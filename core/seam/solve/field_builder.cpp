@@ -7,6 +7,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "seam/base/plugin_fault.hpp"
+#include "seam/term/term_name.hpp"
+
 namespace seam {
 namespace {
 
@@ -51,6 +54,32 @@ std::vector<int> boundary_nodes(const Field& field, int block, const std::string
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
+}
+
+/// What the physics asks for cannot be.
+void FieldBuilder::refuse(const std::string& what) const {
+  throw PluginFault(entry_.where,
+                    fmt::format("field '{}'{}: {}", entry_.name, plugin_of(*entry_.physics), what));
+}
+
+void FieldBuilder::require_term(const Term* term, bool is_quantity) const {
+  if (!term) refuse(fmt::format("its build() adds {} that is null", is_quantity ? "a quantity" : "a term"));
+  const Signature& signature = term->signature(dimension());
+  if (is_quantity && signature.values == 0)
+    refuse(fmt::format("its build() adds the term '{}' as a quantity; make_quantity() makes those",
+                       term_name(*term)));
+  if (!is_quantity && signature.values > 0)
+    refuse(fmt::format("its build() adds the quantity '{}' as a term; make_term() makes those",
+                       term_name(*term)));
+}
+
+Field::Place FieldBuilder::component_place(const std::string& unknown, int component) const {
+  Field::Place place = entry_.field->place(unknown);
+  if (component < 0 || component >= place.components)
+    refuse(fmt::format("its build() speaks of component {} of '{}', which has {}: 0 is the first", component,
+                       unknown, place.components));
+  place.offset += component;
+  return place;
 }
 
 std::vector<std::string> FieldBuilder::boundaries() const {
@@ -129,6 +158,7 @@ void FieldBuilder::within(int region, const std::function<void()>& add) {
 BoundTerm FieldBuilder::bind(std::shared_ptr<const Term> term, std::vector<Operand> operands,
                              int sides) const {
   BoundTerm bound{std::move(term), std::move(operands)};
+  bound.where = entry_.where;
   if (region_ >= 0 && entry_.field->regions() > 1)
     for (int side = 0; side < sides; ++side) bound.regions.push_back({side, region_});
   return bound;
@@ -137,6 +167,7 @@ BoundTerm FieldBuilder::bind(std::shared_ptr<const Term> term, std::vector<Opera
 void FieldBuilder::add_quantity(std::vector<FieldQuantity>& list, const std::string& name,
                                 std::shared_ptr<const Term> quantity,
                                 const std::vector<std::string>& operands) const {
+  require_term(quantity.get(), true);
   const bool continued = region_ > 0 && !list.empty();
   const auto known = continued ? std::ranges::find(list, name, &FieldQuantity::name) : list.end();
   if (known != list.end())
@@ -146,25 +177,30 @@ void FieldBuilder::add_quantity(std::vector<FieldQuantity>& list, const std::str
 }
 
 void FieldBuilder::add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) {
+  require_term(term.get(), false);
   const int degree = cell_degree(*entry_.field, *term);
   cell_terms_[{CellDomain::Cells::all, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) {
+  require_term(term.get(), false);
   const int degree = cell_degree(*entry_.field, *term);
   cell_terms_[{CellDomain::Cells::uncut, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                      std::vector<std::string> operands) {
+  require_term(term.get(), false);
   const int degree = 2 * entry_.field->order() + term->extra_degree();
   std::set<std::string> tested;
-  for (const Slot& slot : term->signature(dimension()).outputs) tested.insert(operands.at(slot.operand));
+  for (const Slot& slot : term->signature(dimension()).outputs)
+    if (slot.operand < static_cast<int>(operands.size())) tested.insert(operands[slot.operand]);
   if (!boundary.empty()) entry_.loads.emplace_back(boundary, std::move(tested));
   boundary_terms_[{boundary, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) {
+  require_term(term.get(), false);
   const int degree = 2 * entry_.field->order() + term->extra_degree();
   face_terms_[{InteriorFaceDomain::Faces::all, degree}].push_back(
       bind(std::move(term), std::move(operands), 2));
@@ -172,6 +208,7 @@ void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std:
 
 void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
                                        std::vector<Operand> operands) {
+  require_term(term.get(), false);
   const int degree = 2 * entry_.field->order() + term->extra_degree();
   const auto which =
       faces == GhostFaces::all ? InteriorFaceDomain::Faces::ghost : InteriorFaceDomain::Faces::wet_ghost;
@@ -181,38 +218,40 @@ void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const T
 void FieldBuilder::fix_level(const std::string& unknown, double value,
                              std::vector<std::string> open_boundaries) {
   const Field::Place place = entry_.field->place(unknown);
+  if (place.components != 1)
+    refuse(fmt::format("its build() fixes the level of '{}', which has {} components; only a scalar has one",
+                       unknown, place.components));
   entry_.levels.push_back({unknown, place.block, place.offset, value, std::move(open_boundaries), {}});
 }
 
 void FieldBuilder::prescribe(const std::string& boundary, const std::string& unknown, int component,
                              Expression value, const Location& where) {
-  const Field::Place place = entry_.field->place(unknown);
+  const Field::Place place = component_place(unknown, component);
   for (const PrescribedCondition& other : entry_.conditions)
-    if (other.boundary == boundary && other.block == place.block &&
-        other.component == place.offset + component)
+    if (other.boundary == boundary && other.block == place.block && other.component == place.offset)
       throw Error(
           where,
           fmt::format("component {} of '{}' on boundary '{}' of field '{}' is prescribed twice; the other "
                       "condition stands at {}",
                       component, unknown, boundary, entry_.name, other.where.text()));
-  entry_.conditions.push_back({boundary, unknown, place.block, place.offset + component,
+  entry_.conditions.push_back({boundary, unknown, place.block, place.offset,
                                boundary_nodes(*entry_.field, place.block, boundary), std::move(value),
                                where});
 }
 
 void FieldBuilder::give(const std::string& unknown, int component, Expression value) {
-  const Field::Place place = entry_.field->place(unknown);
-  entry_.given.push_back({place.block, place.offset + component, std::move(value)});
+  const Field::Place place = component_place(unknown, component);
+  entry_.given.push_back({place.block, place.offset, std::move(value)});
 }
 
 void FieldBuilder::set_initial(const std::string& unknown, int component, Expression value) {
-  const Field::Place place = entry_.field->place(unknown);
-  entry_.initial.push_back({place.block, place.offset + component, std::move(value), false});
+  const Field::Place place = component_place(unknown, component);
+  entry_.initial.push_back({place.block, place.offset, std::move(value), false});
 }
 
 void FieldBuilder::set_initial_rate(const std::string& unknown, int component, Expression value) {
-  const Field::Place place = entry_.field->place(unknown);
-  entry_.initial.push_back({place.block, place.offset + component, std::move(value), true});
+  const Field::Place place = component_place(unknown, component);
+  entry_.initial.push_back({place.block, place.offset, std::move(value), true});
 }
 
 void FieldBuilder::add_output(const std::string& name, std::shared_ptr<const Term> quantity,
@@ -222,6 +261,9 @@ void FieldBuilder::add_output(const std::string& name, std::shared_ptr<const Ter
 
 void FieldBuilder::add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
                                 std::vector<std::string> operands) {
+  require_term(quantity.get(), true);
+  if (const int values = quantity->signature(dimension()).values; values != 1)
+    refuse(fmt::format("the integral '{}' is of {} numbers a point; it records one", name, values));
   add_quantity(entry_.integrals, name, std::move(quantity), operands);
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/interface/begins_steps.hpp"
 #include "seam/solve/field_builder.hpp"
@@ -44,18 +45,52 @@ void update_rate(const TimePoint& at, const Block& block, int order, const std::
   }
 }
 
+/// Gives the unknowns that a coupling's term reads rates of these rates.
+void carry_rates_of(const BoundTerm& bound, const std::vector<Field*>& fields) {
+  for (const Slot& slot : bound.term->signature(fields.front()->mesh().dimension()).inputs) {
+    const auto k = static_cast<std::size_t>(slot.operand);
+    if (slot.level == Level::now || slot.level == Level::old || k >= bound.operands.size()) continue;
+    const Operand& operand = bound.operands[k];
+    const Field::Place place = fields.at(operand.side)->place(operand.unknown);
+    Block& block = fields[operand.side]->blocks()[place.block];
+    for (int c = place.offset; c < place.offset + place.components; ++c)
+      block.time_order[c] = std::max(block.time_order[c], slot.level == Level::second_rate ? 2 : 1);
+  }
+}
+
+/// What a physics declares of its unknowns.
+/// @throws PluginFault for what cannot be
+std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
+  std::vector<Unknown> unknowns = entry.physics->unknowns(dimension);
+  std::set<std::string> names;
+  for (const Unknown& u : unknowns) {
+    std::string wrong;
+    if (u.name.empty()) wrong = "has no name";
+    if (!names.insert(u.name).second) wrong = "is declared twice";
+    if (u.components < 1) wrong = fmt::format("has {} components; at least 1 is needed", u.components);
+    if (u.order < 1 || u.order > 2) wrong = fmt::format("is of order {}; there are 1 and 2", u.order);
+    if (u.time_order < 0 || u.time_order > 2)
+      wrong = fmt::format("has time_order {}; there are 0, 1 and 2", u.time_order);
+    if (wrong.empty()) continue;
+    throw PluginFault(entry.where, fmt::format("field '{}'{}: its unknown '{}' {}", entry.name,
+                                               plugin_of(*entry.physics), u.name, wrong));
+  }
+  return unknowns;
+}
+
 }  // namespace
 
 Field& Problem::add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
-                          std::unique_ptr<Physics> physics) {
+                          std::unique_ptr<Physics> physics, const Location& where) {
   FieldEntry& entry = fields_.emplace_back();
   entry.name = name;
+  entry.where = where;
   entry.shape = mesh;
   entry.mesh = mesh;
   entry.physics = std::move(physics);
   FieldBuilder builder(entry, domains_);
   if (entry.physics->support() == Support::point) entry.mesh = point_mesh(*mesh, builder);
-  entry.field = std::make_unique<Field>(name, *entry.mesh, entry.physics->unknowns(mesh->dimension()),
+  entry.field = std::make_unique<Field>(name, *entry.mesh, declared_unknowns(entry, mesh->dimension()),
                                         entry.physics->separates_parts() ? most_sets : 1);
   entry.physics->build(builder);
   builder.finish();
@@ -112,16 +147,11 @@ void Problem::carry_rates() {
   for (const auto& [domain, terms] : domains_) {
     const std::vector<Field*> fields = domain->fields();
     if (fields.front() == fields.back() && !couplings.contains(domain.get())) continue;
-    for (const BoundTerm& bound : terms)
-      for (const Slot& slot : bound.term->signature(fields.front()->mesh().dimension()).inputs) {
-        if (slot.level != Level::rate && slot.level != Level::second_rate) continue;
-        const Operand& operand = bound.operands[slot.operand];
-        const Field::Place place = fields[operand.side]->place(operand.unknown);
-        Block& block = fields[operand.side]->blocks()[place.block];
-        for (int c = place.offset; c < place.offset + place.components; ++c)
-          block.time_order[c] = std::max(block.time_order[c], slot.level == Level::rate ? 1 : 2);
-      }
+    for (const BoundTerm& bound : terms) carry_rates_of(bound, fields);
   }
+  for (const InterfaceMeasure& measure : measures_)
+    for (const InterfaceMeasure::Share& share : measure.shares)
+      carry_rates_of(share.quantity, share.domain->fields());
 }
 
 /// An interface that moves with a body sweeps over the volume of the field that it bounds.

@@ -47,6 +47,7 @@ struct LevelCondition {
 /// A field with its physics.
 struct FieldEntry {
   std::string name;
+  Location where = {};                ///< in the scene
   std::shared_ptr<const Mesh> shape;  ///< the mesh the scene gives it
   std::shared_ptr<const Mesh> mesh;   ///< the mesh its unknowns live on
   std::unique_ptr<Physics> physics;
@@ -95,8 +96,9 @@ class Problem {
 
   /// Adds a field and lets its physics declare its terms. Collective.
   /// @throws Error when two conditions claim the same unknown on the same boundary
+  /// @throws PluginFault when what the physics declares cannot be
   Field& add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
-                   std::unique_ptr<Physics> physics);
+                   std::unique_ptr<Physics> physics, const Location& where = {});
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
   void add_measure(InterfaceMeasure measure) { measures_.push_back(std::move(measure)); }

@@ -261,7 +261,7 @@ Signature signature_of(Reads, Tests, int dim) {
   Signature s{{}, Reads::list(), Tests::list(), {}, 0};
   const auto note = [&]<class R>(R) {
     if (R::operand::index >= static_cast<int>(s.components.size()))
-      s.components.resize(R::operand::index + 1, 1);
+      s.components.resize(R::operand::index + 1, 0);
     s.components[R::operand::index] = R::operand::components(dim);
   };
   Reads::for_each(note);

@@ -33,7 +33,7 @@ constexpr int rows(Shape shape, int dimension) { return shape == Shape::gradient
 
 /// The interface of a term as the assembler sees it; made from the kernel's declarations by KernelTerm.
 struct Signature {
-  std::vector<int> components;  ///< of each operand
+  std::vector<int> components;  ///< of each operand; 0 of one that the kernel does not name
   std::vector<Slot> inputs;
   std::vector<Slot> outputs;
   /// Distinct (operand, shape) pairs of the differentiated inputs: the columns of the point tangent.

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A field of heat conduction that goes wrong in the way its scene asks for, to see what Seam and the
+// conformance kit say of it.
+#include <cmath>
+#include <csignal>
+#include <stdexcept>
+
+#include "seam/physics/physics.hpp"
+#include "seam/plugin/plugin.hpp"
+#include "seam/term/kernel_term.hpp"
+
+namespace {
+
+using namespace seam;
+using Temperature = Scalar<0>;
+
+constexpr double late = 0.6;  // s: by then the run has taken some steps
+
+struct Conduction {
+  using Reads = Slots<Value<Temperature>, Rate<Temperature>, Gradient<Temperature>>;
+  using Tests = Slots<Value<Temperature>, Gradient<Temperature>>;
+  std::string how;
+
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const T t = s.value(Temperature{});
+    T conductivity = 1.0 + 0.3 * t * t;
+    if (x.time > late) {
+      if (how == "throws") throw std::runtime_error("the table ends at 5 K");
+      if (how == "throws error") throw Error("the table ends at 5 K");
+      if (how == "throws number") throw 42;
+      if (how == "crashes") std::raise(SIGSEGV);
+    }
+    using std::sqrt;
+    if (how == "slope at rest")
+      conductivity = 1.0 + sqrt(dot(s.gradient(Temperature{}), s.gradient(Temperature{})));
+    r.value(Temperature{}) += s.rate(Temperature{}) - 1.0;
+    r.gradient(Temperature{}) += conductivity * s.gradient(Temperature{});
+  }
+};
+
+/// Acts where it is hot: in the scene, nowhere.
+struct Radiation {
+  using Reads = Slots<Value<Temperature>>;
+  using Tests = Slots<Value<Temperature>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const T t = s.value(Temperature{});
+    if (plain(t) > 1000) r.value(Temperature{}) += t * t * t * t;
+  }
+};
+
+template <int count>
+struct Numbers {
+  using Reads = Slots<Value<Temperature>>;
+  static constexpr int values(int) { return count; }
+  std::string how = {};
+  template <int dim>
+  void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* v) const {
+    if (how == "quantity throws") throw std::out_of_range("no such row");
+    for (int k = 0; k < count; ++k) v[k] = s.value(Temperature{});
+  }
+};
+
+class Faulty final : public Physics {
+ public:
+  explicit Faulty(const Parameters& p) : how_(p.text("how")), where_(p.where()) {
+    if (how_ == "constructor throws") throw std::out_of_range("no such row");
+    if (how_ == "constructor crashes") std::raise(SIGSEGV);
+    if (how_ == "undeclared key") (void)p.number("conductivity");
+  }
+  [[nodiscard]] std::vector<Unknown> unknowns(int) const override {
+    Unknown temperature{"temperature", 1, 1, 1, "K"};
+    if (how_ == "order") temperature.order = 3;
+    if (how_ == "components") temperature.components = 0;
+    if (how_ == "time order") temperature.time_order = 5;
+    if (how_ == "no rate") temperature.time_order = 0;
+    if (how_ == "no name") temperature.name = "";
+    if (how_ == "twice") return {temperature, temperature};
+    return {temperature};
+  }
+  void build(FieldSetup& setup) const override {
+    std::vector<std::string> operands{"temperature"};
+    if (how_ == "few operands") operands = {};
+    if (how_ == "many operands") operands = {"temperature", "temperature"};
+    if (how_ == "unknown operand") operands = {"temprature"};
+    if (how_ == "null term") setup.add_cell_term(nullptr, operands);
+    if (how_ == "null quantity") setup.add_output("heat", nullptr, operands);
+    if (how_ == "quantity as term") setup.add_cell_term(make_quantity(Numbers<1>{}), operands);
+    if (how_ == "term as quantity") setup.add_output("heat", make_term(Radiation{}), operands);
+    if (how_ == "integral of two") setup.add_integral("two", make_quantity(Numbers<2>{}), operands);
+    if (how_ == "build throws") throw std::runtime_error("stoi");
+    setup.add_cell_term(make_term(Conduction{how_}), operands);
+    if (how_ == "nothing") setup.add_cell_term(make_term(Radiation{}), operands);
+    const Expression zero(0.0);
+    if (how_ == "prescribes") setup.prescribe("x_min", "temperature", 7, zero, where_);
+    if (how_ == "prescribes before") setup.prescribe("x_min", "temperature", -1, zero, where_);
+    if (how_ == "starts") setup.set_initial("temperature", 1, zero);
+    if (how_ == "starts rate") setup.set_initial_rate("temperature", 1, zero);
+    if (how_ == "gives") setup.give("temperature", 1, zero);
+    setup.prescribe("x_min", "temperature", 0, zero, where_);
+    setup.add_integral("heat", make_quantity(Numbers<1>{how_}), {"temperature"});
+  }
+
+ private:
+  std::string how_;
+  Location where_;
+};
+
+class Undefined final : public Physics {
+ public:
+  [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {}; }
+  void build(FieldSetup&) const override {}
+};
+
+}  // namespace
+
+SEAM_PLUGIN(registry) {
+  Schema schema("Heat conduction that goes wrong.");
+  schema.reference("mesh", "its shape", "mesh");
+  schema.text("how", "in which way");
+  registry.add<Physics>("field", "faulty", schema,
+                        [](const Parameters& p, const Registry&) { return std::make_unique<Faulty>(p); });
+  Schema targets("Keys that point nowhere.");
+  targets.reference("mesh", "its shape", "mesh");
+  targets.reference("planet", "no thing of a scene", "planet").otherwise("mars");
+  targets.names("where", "no parts of a mesh").naming("boundry").optional();
+  targets.typed("law", "a kind without types", "laws_of_nature").optional();
+  registry.add<Physics>("field", "pointless", targets,
+                        [](const Parameters&, const Registry&) { return std::make_unique<Undefined>(); });
+}

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The public headers: what plugins may include, and what goes into binaries with it.
+
+    tools/headers.py list              their names
+    tools/headers.py hash [FILE]       a hash of their tokens, comments left out; written as a C++ header to FILE
+    tools/headers.py install FOLDER    copies them
+    tools/headers.py check             whether core/seam/plugin/abi.txt holds this hash for the plugin ABI's number
+    tools/headers.py record            writes it there, after the number in descriptor.hpp was raised
+
+Public is what ENTRIES name and all that these include. The rest may change at any time.
+"""
+import hashlib
+import pathlib
+import re
+import shutil
+import sys
+
+CORE = pathlib.Path(__file__).resolve().parent.parent / "core"
+ABI = CORE / "seam/plugin/abi.txt"
+ENTRIES = """
+    assembly/domains.hpp base/plugin_fault.hpp interface/adjoint.hpp interface/cell_constant.hpp
+    interface/interface.hpp linear/linear_solver.hpp physics/body_terms.hpp physics/hyperelastic.hpp
+    physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
+    plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp
+    scene/schema.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp
+    term/tensor.hpp
+""".split()
+GENERATED = {"seam/plugin/fingerprint.hpp", "seam/plugin/headers.hpp"}  # by CMake, where Seam is built
+
+COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
+TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|\w+|[^\w\s]')
+
+
+def public_headers():
+    found, left = set(), [f"seam/{entry}" for entry in ENTRIES]
+    while left:
+        name = left.pop()
+        if name in found or name in GENERATED:
+            continue
+        found.add(name)
+        left += re.findall(r'#include "(seam/[^"]+)"', (CORE / name).read_text())
+    return sorted(found)
+
+
+def tokens(text):
+    def without_comment(match):
+        return " " if match.group().startswith("/") else match.group()
+
+    return " ".join(TOKEN.findall(COMMENT_OR_TEXT.sub(without_comment, text)))
+
+
+def headers_hash():
+    digest = hashlib.sha256()
+    for name in public_headers():
+        # The number stands in a header itself; that it is raised changes nothing else.
+        text = re.sub(r"(plugin_abi_m\w+) = \d+", r"\1", tokens((CORE / name).read_text()))
+        digest.update(f"{name}\n{text}\n".encode())
+    return digest.hexdigest()[:32]
+
+
+def abi_number():
+    text = (CORE / "seam/plugin/descriptor.hpp").read_text()
+    return ".".join(re.search(rf"plugin_abi_{part} = (\d+)", text).group(1) for part in ("major", "minor"))
+
+
+def check():
+    recorded = dict(line.split() for line in ABI.read_text().splitlines() if line and not line.startswith("#"))
+    number, found = abi_number(), headers_hash()
+    if recorded.get(number) == found:
+        return 0
+    print(f"The public headers have the hash {found}; {ABI.relative_to(CORE.parent)} has "
+          f"{recorded.get(number, 'none')} for the plugin ABI {number}.\nPlugins built before do not fit, or may not: "
+          "raise plugin_abi_minor in descriptor.hpp where something was only added at an end, else plugin_abi_major, "
+          "then say tools/headers.py record", file=sys.stderr)
+    return 1
+
+
+def record():
+    lines = [line for line in ABI.read_text().splitlines() if line.split()[:1] != [abi_number()]]
+    ABI.write_text("\n".join([*lines, f"{abi_number()} {headers_hash()}"]) + "\n")
+    return 0
+
+
+def write_hash(file):
+    text = f'// Written by tools/headers.py.\n#pragma once\n#define SEAM_HEADERS "{headers_hash()}"\n'
+    path = pathlib.Path(file)
+    if not path.exists() or path.read_text() != text:
+        path.write_text(text)
+    return 0
+
+
+def install(folder):
+    for name in public_headers():
+        target = pathlib.Path(folder) / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(CORE / name, target)
+    return 0
+
+
+def main(arguments):
+    match arguments:
+        case ["list"]:
+            print("\n".join(public_headers()))
+        case ["hash"]:
+            print(headers_hash())
+        case ["hash", file]:
+            return write_hash(file)
+        case ["install", folder]:
+            return install(folder)
+        case ["check"]:
+            return check()
+        case ["record"]:
+            return record()
+        case _:
+            print(__doc__, file=sys.stderr)
+            return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
