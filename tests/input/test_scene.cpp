@@ -94,6 +94,26 @@ TEST_CASE("a bound is in its range or not, as the schema says") {
   CHECK_FALSE(accepts("order", "3"));
 }
 
+TEST_CASE("a scene of a newer format is refused before anything else is said") {
+  for (const std::string format : {"", "format: 1\n"}) CHECK_NOTHROW(parse(format + good_text()));
+  const std::string newer = "format: 2\nunheard: 3\n" + good_text();
+  CHECK_THROWS_WITH(parse(newer),
+                    Contains("scene.yaml:1:9: error: format: found 2, this Seam reads scenes of "
+                             "format 1; use a newer Seam") &&
+                        !Contains("unheard"));
+  for (const std::string format : {"0", "1.5", "1 + 1", "one"})
+    CHECK_THROWS_WITH(parse("format: " + format + "\n" + good_text()), Contains("format"));
+}
+
+TEST_CASE("the key that YAML 1.1 makes of `on` is understood") {
+  for (const std::string key : {"true", "True", "\"true\""}) {
+    const Scene scene = parse(replaced(good_text(), "{on: ", "{" + key + ": "));
+    const Parameters& fixed = scene.root.map("fields")[0].second.list("boundary")[0];
+    CHECK(fixed.names("on") == std::vector<std::string>{"x_min"});
+  }
+  CHECK_THROWS_WITH(parse(replaced(good_text(), "{on: ", "{on: x_max, true: ")), Contains("given twice"));
+}
+
 TEST_CASE("names of boundaries are checked against the meshes") {
   Registry registry;
   register_test_types(registry);

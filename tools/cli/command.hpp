@@ -32,6 +32,23 @@ Command run_command(CLI::App& parent);
 Command verify_command(CLI::App& parent);
 Command study_command(CLI::App& parent);
 
+/// `--restricted`, `--trust-geometry` and `--limit`, which hold for the whole process. They may stand before
+/// the command's name or after it.
+class Trust {
+ public:
+  void add_options(CLI::App& app);
+  /// Makes them the policy of this process. @throws Error
+  void apply() const;
+
+ private:
+  bool restricted_ = false;
+  bool trust_geometry_ = false;
+  std::vector<std::string> limits_;
+};
+
+/// The options above as words, for a process that this one starts.
+std::vector<std::string> trust_as_words();
+
 /// What an exception means to the user.
 struct Failure {
   ExitCode code;

@@ -19,8 +19,9 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 512 << 20);
 }
 
-int run_chosen(const std::vector<Command>& commands) {
+int run_chosen(const std::vector<Command>& commands, const Trust& trust) {
   try {
+    trust.apply();
     for (const Command& command : commands) {
       if (command.app->parsed()) return command.run();
     }
@@ -45,10 +46,13 @@ int main(int argc, char** argv) {
   const std::vector<Command> commands{plugins_command(app), plugin_test_command(app), check_command(app),
                                       explain_command(app), schema_command(app),      run_command(app),
                                       verify_command(app),  study_command(app)};
+  Trust trust;
+  trust.add_options(app);
+  for (const Command& command : commands) trust.add_options(*command.app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? ok : broken_input;
   }
-  return run_chosen(commands);
+  return run_chosen(commands, trust);
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "seam/base/policy.hpp"
 #include "seam/run/interruption.hpp"
 #include "session.hpp"
 
@@ -11,7 +12,7 @@ namespace seam::cli {
 namespace {
 
 void report(const SceneOutcome& outcome) {
-  fmt::print("{}\n", outcome.title);
+  fmt::print("{}\n", on_one_line(outcome.title));
   if (!outcome.checks.empty()) fmt::print("{}", check_table(outcome.checks));
   const Timings& t = outcome.timings;
   fmt::print(

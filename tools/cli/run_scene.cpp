@@ -7,6 +7,7 @@
 #include "run.hpp"
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
+#include "seam/base/policy.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
@@ -32,8 +33,16 @@ std::filesystem::path results_folder(const SceneRun& run, const Scene& scene,
                                      const Communicator& communicator) {
   if (!run.folder.empty()) return run.folder;
   const Parameters& output = scene.root.object("output");
-  if (output.has("folder") && !run.ignore_scenes_folder) return output.text("folder");
-  return from_root(communicator, communicator.rank() == 0 ? default_folder(scene).string() : "");
+  const bool is_given = output.has("folder") && !run.ignore_scenes_folder;
+  std::filesystem::path folder =
+      is_given ? output.text("folder")
+               : from_root(communicator, communicator.rank() == 0 ? default_folder(scene).string() : "");
+  // What comes with a stranger's scene may hold links, too.
+  if (policy().restricted && !is_below(folder, "."))
+    throw Error(Location{folder.string()},
+                "the results would be written outside the current folder, as a link on the "
+                "way leads there; choose a folder by --folder");
+  return folder;
 }
 
 bool wants_picture(const Scene& scene) {
@@ -169,7 +178,7 @@ SceneOutcome run_scene(const SceneRun& run) {
   options.announce = true;
   options.quiet = run.quiet;
   options.stop_after = run.stop_after;
-  options.time_limit = run.time_limit;
+  options.time_limit = std::min(run.time_limit, policy().limits.seconds);
   try {
     outcome.results = simulation.run(options);
   } catch (const std::exception& error) {

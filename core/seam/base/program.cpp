@@ -2,10 +2,20 @@
 #include "seam/base/program.hpp"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+
+#include "seam/base/diagnostics.hpp"
+#include "seam/base/stopwatch.hpp"
 
 namespace seam {
 namespace {
@@ -18,14 +28,37 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+void limit(decltype(RLIMIT_AS) resource, double value) {
+  rlimit bounds{};
+  if (getrlimit(resource, &bounds) != 0) return;
+  // A limit that is stricter already stays.
+  bounds.rlim_cur = std::min(bounds.rlim_max, static_cast<rlim_t>(std::min(value, 9e18)));
+  setrlimit(resource, &bounds);
+}
+
+/// In a child: what holds it to its limits. Only async-signal-safe calls.
+void confine(const ProgramLimits& limits, pid_t parent) {
+  // It ends with this process, even when that is killed; which it may have been already.
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
+  limit(RLIMIT_AS, limits.memory_bytes);
+  limit(RLIMIT_FSIZE, limits.file_bytes);
+  limit(RLIMIT_CPU, std::ceil(limits.seconds) + 1);
+  limit(RLIMIT_CORE, 0);
+  std::signal(SIGXFSZ, SIG_DFL);
+}
+
 /// Starts a program whose streams go to the given files (-1: leave). Returns the process, or -1.
-pid_t start(const std::vector<std::string>& arguments, int out, int err) {
+pid_t start(const std::vector<std::string>& arguments, int out, int err,
+            const ProgramLimits* limits = nullptr) {
   // All memory is taken before fork: afterwards only async-signal-safe calls are allowed.
   std::vector<char*> argv;
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
   argv.push_back(nullptr);
+  const pid_t parent = getpid();
   const pid_t child = fork();
   if (child != 0) return child;
+  if (limits) confine(*limits, parent);
   if (out >= 0) dup2(out, STDOUT_FILENO);
   if (err >= 0) dup2(err, STDERR_FILENO);
   execvp(argv[0], argv.data());
@@ -43,6 +76,51 @@ int run_program(const std::vector<std::string>& arguments, const std::filesystem
   const pid_t child = start(arguments, file, file);
   if (file >= 0) close(file);
   return child < 0 ? 127 : wait_for(child);
+}
+
+int run_program(const std::vector<std::string>& arguments, const NamelessFile& output,
+                const ProgramLimits& limits) {
+  const int file = open(output.path().c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) return 127;
+  const pid_t child = start(arguments, file, file, &limits);
+  close(file);
+  if (child < 0) return 127;
+  siginfo_t ended{};
+  constexpr useconds_t longest_pause = 20000;
+  useconds_t pause = 500;
+  for (const Stopwatch watch; watch.seconds() < limits.seconds;) {
+    // Looks whether it has ended without taking its exit code.
+    if (waitid(P_PID, static_cast<id_t>(child), &ended, WEXITED | WNOHANG | WNOWAIT) != 0 && errno != EINTR)
+      return 127;
+    if (ended.si_pid == child) return wait_for(child);
+    usleep(pause);
+    pause = std::min(2 * pause, longest_pause);
+  }
+  kill(child, SIGKILL);
+  wait_for(child);
+  return timed_out;
+}
+
+NamelessFile::NamelessFile() {
+  std::string name = (std::filesystem::temp_directory_path() / "seam-XXXXXX").string();
+  // Programs that are started inherit it: that is what it is for.
+  handle_ = mkstemp(name.data());
+  if (handle_ < 0)
+    throw Error("cannot make a temporary file '" + name + "': " + std::strerror(errno) +
+                "; set TMPDIR to a folder that can be written to");
+  unlink(name.c_str());
+}
+
+NamelessFile::~NamelessFile() { close(handle_); }
+
+std::string NamelessFile::path() const { return "/proc/self/fd/" + std::to_string(handle_); }
+
+std::string NamelessFile::read() const {
+  std::string text;
+  char buffer[1 << 16];
+  for (ssize_t n = 0; (n = pread(handle_, buffer, sizeof buffer, static_cast<off_t>(text.size()))) > 0;)
+    text.append(buffer, static_cast<std::size_t>(n));
+  return text;
 }
 
 std::string program_output(const std::vector<std::string>& arguments) {

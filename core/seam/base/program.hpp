@@ -7,10 +7,39 @@
 
 namespace seam {
 
+/// What a program that is not Seam's may take. It never outlives this process.
+struct ProgramLimits {
+  double seconds;       ///< by the clock
+  double memory_bytes;  ///< of address space
+  double file_bytes;    ///< of each file that it writes
+};
+
+/// A file without a name, for what a program writes: gone when this process ends, in whatever way.
+class NamelessFile {
+ public:
+  /// @throws Error when none can be made
+  NamelessFile();
+  ~NamelessFile();
+  NamelessFile(const NamelessFile&) = delete;
+  NamelessFile& operator=(const NamelessFile&) = delete;
+  /// What a program that this process starts opens it by.
+  [[nodiscard]] std::string path() const;
+  [[nodiscard]] std::string read() const;
+
+ private:
+  int handle_ = -1;
+};
+
 /// Runs a program (found by PATH when its name has no '/') and waits for it.
 /// @param output file that gets what it prints, both streams; empty: as this process prints
 /// @returns its exit code; 127 when it could not be started, 128 + number of the signal that ended it
 int run_program(const std::vector<std::string>& arguments, const std::filesystem::path& output = {});
+
+/// The same within limits, with what it prints in a file.
+/// @returns also timed_out when it had to be ended
+int run_program(const std::vector<std::string>& arguments, const NamelessFile& output,
+                const ProgramLimits& limits);
+constexpr int timed_out = -1;
 
 /// What a short program prints, without the last line break; "" when it fails.
 std::string program_output(const std::vector<std::string>& arguments);

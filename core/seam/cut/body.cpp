@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/base/policy.hpp"
 
 namespace seam {
 namespace {
@@ -62,6 +63,7 @@ class Circle final : public RigidShape {
   [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
     require_dimension(p_, dimension, 2);
     const int n = static_cast<int>(p_.integer("facets"));
+    require_within(n, policy().limits.facets, "facets", "facets of the circle", p_.where("facets"));
     const double step = 2 * std::numbers::pi / n;
     const double radius = p_.number("radius") * std::sqrt(step / std::sin(step));
     Surface s;
@@ -93,6 +95,8 @@ class Sphere final : public RigidShape {
   }
   [[nodiscard]] Surface outline(int dimension, const MeshFinder&) const override {
     require_dimension(p_, dimension, 3);
+    require_within(20 * std::pow(4.0, p_.integer("refinements")), policy().limits.facets, "facets",
+                   "facets of the sphere", p_.where("refinements"));
     Surface s = icosahedron();
     for (long k = 0; k < p_.integer("refinements"); ++k) split(s);
     const double scale = p_.number("radius") * std::cbrt(4 * std::numbers::pi / 3 / volume(s));

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -28,13 +29,51 @@ std::string plugin_name(const fs::path& file) {
   return name.substr(start.size(), name.size() - start.size() - end.size());
 }
 
-bool world_writable(const fs::path& path) {
+/// Whoever can change Seam itself needs no plugin for it: root, this user, and the owner of this library.
+bool is_trusted(uid_t user) {
+  static const uid_t owner = [] {
+    Dl_info info{};
+    struct stat status {};
+    const bool is_known = dladdr(reinterpret_cast<const void*>(&host_fingerprint), &info) != 0 &&
+                          info.dli_fname && stat(info.dli_fname, &status) == 0;
+    return is_known ? status.st_uid : 0;
+  }();
+  return user == 0 || user == geteuid() || user == owner;
+}
+
+/// Why others than those may change what stands at a path, or "". Links are not followed.
+std::string insecurity(const fs::path& path) {
   struct stat status {};
-  return stat(path.c_str(), &status) == 0 && (status.st_mode & S_IWOTH) != 0;
+  if (lstat(path.c_str(), &status) != 0) return "it cannot be looked at";
+  if (!is_trusted(status.st_uid)) return fmt::format("it belongs to another user (number {})", status.st_uid);
+  // Permissions of a link mean nothing: what it leads to counts, and the folder that it stands in.
+  if (S_ISLNK(status.st_mode)) return "";
+  // Root's mark that only the owner of an entry may replace it.
+  const bool is_sticky = S_ISDIR(status.st_mode) && (status.st_mode & S_ISVTX) != 0;
+  if ((status.st_mode & S_IWOTH) != 0 && !is_sticky) return "everybody may write to it";
+  return "";
+}
+
+/// The first of a path and the folders above it that others may change, and why; or "".
+std::string insecurity_on_the_way(const fs::path& path) {
+  for (fs::path at = path; at.has_relative_path(); at = at.parent_path()) {
+    const std::string reason = insecurity(at);
+    if (!reason.empty()) return at == path ? reason : fmt::format("'{}' above it: {}", at.string(), reason);
+  }
+  return "";
+}
+
+/// The same of a library that lies in a folder which has been judged, or of what a link there leads to.
+std::string insecurity_of_library(const fs::path& file) {
+  std::error_code code;
+  const fs::path real = fs::canonical(file, code);
+  if (code) return "it leads nowhere";
+  return real.parent_path() == file.parent_path() ? insecurity(real) : insecurity_on_the_way(real);
 }
 
 /// Why plugins are not taken from this folder, or "".
-std::string refusal(const fs::path& folder) {
+/// @param real without links
+std::string refusal(const fs::path& folder, const fs::path& real) {
   static const std::set<std::string> system{"/lib",
                                             "/lib64",
                                             "/usr/lib",
@@ -42,8 +81,16 @@ std::string refusal(const fs::path& folder) {
                                             "/usr/local/lib",
                                             "/usr/lib/x86_64-linux-gnu",
                                             "/usr/lib/aarch64-linux-gnu"};
-  if (system.count(folder.string()) > 0) return "a folder of the system; put plugins in one of their own";
-  if (world_writable(folder)) return "everybody may write to it; use `chmod o-w`";
+  if (system.count(real.string()) > 0) return "a folder of the system; put plugins in one of their own";
+  struct stat status {};
+  if (stat(real.c_str(), &status) == 0 && (status.st_mode & S_IWOTH) != 0)
+    return "everybody may write to it; use `chmod o-w`, if you trust what is in it";
+  // The way as it is written counts, too: whoever may change a link decides what is found.
+  const fs::path written = fs::absolute(folder).lexically_normal();
+  for (const fs::path& way : {real, written.has_filename() ? written : written.parent_path()})
+    if (const std::string reason = insecurity_on_the_way(way); !reason.empty())
+      return fmt::format("{}; put plugins where only you (or root) may write, on all of the way to them",
+                         reason);
   return "";
 }
 
@@ -86,10 +133,10 @@ std::optional<PluginFailure> incompatible(const PluginHost::Found& plugin) {
                                 info.headers.empty() ? "none" : info.headers);
     failure.expected = fmt::format("headers with the hash {}", host_headers());
     failure.hint = "build the plugin again against the headers that were installed with this Seam";
-  } else if (world_writable(plugin.file)) {
-    failure.found = "a file that everybody may write to";
-    failure.expected = "a file that only its owner can change";
-    failure.hint = "use `chmod o-w` on it, if you trust its content";
+  } else if (const std::string reason = insecurity_of_library(plugin.file); !reason.empty()) {
+    failure.found = "a file that others may change: " + reason;
+    failure.expected = "a file that belongs to you or to root, and that only its owner can change";
+    failure.hint = "if you trust its content, copy it to a folder of your own, or use `chmod o-w` on it";
   } else {
     return {};
   }
@@ -123,8 +170,11 @@ PluginFailure not_found(const std::string& name, const PluginHost& host) {
   for (const fs::path& folder : host.folders()) searched.push_back(folder.string());
   for (const std::string& refused : host.refused()) searched.push_back(refused);
   const std::string guess = nearest_name(name, known);
-  std::string hint = guess.empty() ? "set SEAM_PLUGIN_PATH to the folder that holds it"
-                                   : fmt::format("did you mean '{}'?", guess);
+  std::string hint = !guess.empty() ? fmt::format("did you mean '{}'?", guess)
+                     : host.refused().empty()
+                         ? "set SEAM_PLUGIN_PATH to the folder that holds it"
+                         : "if it lies in a folder that is not searched, do as is said there; else set "
+                           "SEAM_PLUGIN_PATH to the folder that holds it";
   return {name,
           fmt::format(
               "{}", searched.empty() ? "no folder to search" : fmt::format("{}", fmt::join(searched, ", "))),
@@ -235,7 +285,7 @@ void PluginHost::add_folder(const std::filesystem::path& folder) {
   const fs::path real = fs::canonical(folder, code);
   if (code || !fs::is_directory(real, code)) return;
   if (std::find(folders_.begin(), folders_.end(), real) != folders_.end()) return;
-  const std::string reason = refusal(real);
+  const std::string reason = refusal(folder, real);
   if (reason.empty()) {
     folders_.push_back(real);
   } else {

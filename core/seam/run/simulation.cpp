@@ -8,6 +8,7 @@
 
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
+#include "seam/base/policy.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/cut/cell_costs.hpp"
@@ -73,6 +74,23 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
   timings_.setup = watch.seconds();
 }
 
+namespace {
+
+/// A bound on the unknowns of a field, before there are any.
+void require_allowed_unknowns(const Physics& physics, const MeshData& mesh, const Location& where) {
+  if (physics.support() == Support::point) return;
+  double unknowns = 0;
+  for (const Unknown& unknown : physics.unknowns(mesh.dimension)) {
+    // Halved edges: 2^dimension times as many nodes.
+    const double nodes =
+        mesh.node_count() * (unknown.order > mesh.order ? std::pow(2.0, mesh.dimension) : 1.0);
+    unknowns += unknown.given ? 0 : nodes * unknown.components;
+  }
+  require_within(unknowns, policy().limits.unknowns, "unknowns", "unknowns of the field, about", where);
+}
+
+}  // namespace
+
 void Simulation::build_fields(const Registry& registry) {
   meshes_ = load_meshes(scene_);
   check_mesh_names(scene_, registry, mesh_names(meshes_));
@@ -103,7 +121,10 @@ void Simulation::add_field(const std::string& name, const Parameters& parameters
   const std::string plugin = plugin_of(*physics);
   call_plugin(
       parameters.where(), [&] { return fmt::format("field '{}'{}", name, plugin); },
-      [&] { problem_.add_field(name, mesh, std::move(physics), parameters.where()); });
+      [&] {
+        require_allowed_unknowns(*physics, mesh->whole(), parameters.where());
+        problem_.add_field(name, mesh, std::move(physics), parameters.where());
+      });
 }
 
 /// What the cells of a mesh cost, from the bodies that cut it at the start; empty where they all cost the

@@ -6,6 +6,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -86,6 +87,32 @@ std::string without_braces(const std::string& text) {
   return result;
 }
 
+/// So many brackets nobody reads, and nobody but an attacker writes.
+void check_nesting(const std::string& text, const std::string& plain) {
+  constexpr int deepest = 200;
+  int depth = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    depth += plain[i] == '(' ? 1 : plain[i] == ')' ? -1 : 0;
+    if (depth > deepest)
+      fail(text, fmt::format("more than {} brackets are open at character {}; name its parts in `parameters`",
+                             deepest, i + 1));
+  }
+}
+
+/// Makes known the constants that occur in a text: of thousands it uses a few.
+void define_used(mu::Parser& parser, const std::string& plain,
+                 const std::map<std::string, double>& constants) {
+  const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t i = 0; i < plain.size();) {
+    std::size_t end = i;
+    if (std::isdigit(static_cast<unsigned char>(plain[i])) == 0)
+      while (end < plain.size() && in_name(plain[end])) ++end;
+    if (const auto found = constants.find(plain.substr(i, end - i)); found != constants.end())
+      parser.DefineConst(found->first, found->second);
+    i = std::max(end, i + 1);
+  }
+}
+
 /// Refuses what muParser would accept but nobody means in a scene: assignments, strings, other alphabets.
 void check_characters(const std::string& text, const std::string& plain) {
   for (std::size_t i = 0; i < plain.size(); ++i) {
@@ -144,9 +171,10 @@ void compile(mu::Parser& parser, const std::string& text, const std::map<std::st
   }
   const std::string plain = without_braces(text);
   check_characters(text, plain);
+  check_nesting(text, plain);
   try {
     parser.DefineConst("pi", std::numbers::pi);
-    for (const auto& [name, value] : parameters) parser.DefineConst(name, value);
+    define_used(parser, plain, parameters);
     for (std::size_t i = 0; variables && i < variable_names.size(); ++i) {
       parser.DefineVar(variable_names[i], variables + i);
     }

@@ -59,8 +59,12 @@ json value_schema(const Parameter& p) {
     case ValueKind::file:
     case ValueKind::reference:
       return word;
-    case ValueKind::names:
-      return {{"anyOf", {word, {{"type", "array"}, {"items", word}}}}};
+    case ValueKind::names: {
+      // Groups of a mesh may be called by their numbers; what stands for no name may be any value.
+      json types = p.target.empty() ? json{"string", "number", "boolean"} : json{"string", "number"};
+      const json one{{"type", std::move(types)}, {"minLength", 1}};
+      return {{"anyOf", {one, {{"type", "array"}, {"items", one}}}}};
+    }
     case ValueKind::object:
       return object_schema(*p.sub);
     case ValueKind::list:

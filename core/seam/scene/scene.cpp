@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iterator>
 
+#include "seam/base/policy.hpp"
 #include "seam/scene/cross_check.hpp"
 #include "seam/scene/overrides.hpp"
 #include "seam/scene/validate.hpp"
@@ -83,6 +85,19 @@ std::vector<std::string> early_words(const YamlNode& root, const std::string& ke
   return result;
 }
 
+/// A newer format has keys and types that nobody here knows: that is said before anything else.
+void refuse_newer_format(const YamlNode& root) {
+  const YamlNode* node = root.find("format");
+  if (!node || node->kind != Kind::scalar) return;
+  long format = 0;
+  const char* last = node->scalar.data() + node->scalar.size();
+  const auto [end, code] = std::from_chars(node->scalar.data(), last, format);
+  if (code != std::errc{} || end != last || format <= scene_format) return;
+  throw Error(node->where(), fmt::format("format: found {}, this Seam reads scenes of format {}; use a newer "
+                                         "Seam, or write the scene in the format of this one",
+                                         format, scene_format));
+}
+
 /// The dimension decides how many entries vectors have, so it is needed before the rest is checked.
 int early_dimension(const YamlNode& root) {
   const YamlNode* node = root.find("dimension");
@@ -90,6 +105,12 @@ int early_dimension(const YamlNode& root) {
 }
 
 void load_plugins(const YamlNode& root, const Scene& scene, PluginHost& host, Registry& registry) {
+  if (const YamlNode* folders = root.find("plugin_folders");
+      policy().restricted && !early_words(root, "plugin_folders").empty())
+    throw Error(
+        folders->where(),
+        "plugin_folders: plugins are code, and --restricted loads none but those that are installed with "
+        "Seam; take the key out");
   for (const std::string& folder : early_words(root, "plugin_folders"))
     host.add_folder(scene.path.parent_path() / folder);
   try {
@@ -99,6 +120,29 @@ void load_plugins(const YamlNode& root, const Scene& scene, PluginHost& host, Re
     if (!node) throw;
     throw PluginError(node->where(), error.failures());
   }
+}
+
+/// A name that would forge lines of a log is no name of a scene.
+void require_printable(const std::string& name) {
+  if (on_one_line(name) == name) return;
+  throw Error(
+      fmt::format("error: the scene file '.. {}' has control characters in its name, or begins as a command "
+                  "of continuous integration does; rename it, or write ./ before it",
+                  on_one_line(name)));
+}
+
+/// Results of a stranger's scene stay below the current folder.
+void check_output_folder(const Scene& scene, Diagnostics& diagnostics) {
+  if (!policy().restricted || !scene.root.has("output")) return;
+  const Parameters& output = scene.root.object("output");
+  if (!output.has("folder")) return;
+  const std::filesystem::path folder = output.text("folder");
+  if (folder.is_relative() && std::ranges::find(folder, "..") == folder.end()) return;
+  diagnostics.error(
+      output.where("folder"),
+      fmt::format("output.folder: found '{}', which --restricted does not allow; expected a relative path "
+                  "without '..', or --folder on the command line",
+                  folder.string()));
 }
 
 void warn_of_hidden_plugins(const YamlNode& root, const PluginHost& host, Diagnostics& diagnostics) {
@@ -135,6 +179,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
         fmt::format("found {}, expected the keys of a scene (title, dimension, meshes, ...)", root.found()));
   }
   apply_overrides(root, overrides);
+  refuse_newer_format(root);
   scene.plugins = early_words(root, "plugins");
   load_plugins(root, scene, host, registry);
 
@@ -156,6 +201,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
       {}};
   create_functions(root, schema, context);
   scene.root = validate(root, schema, context, "");
+  check_output_folder(scene, diagnostics);
   cross_check(scene, registry, host.loaded(), context.used_plugins, diagnostics);
   diagnostics.throw_if_errors();
   scene.warnings = diagnostics;
@@ -165,6 +211,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
 Scene load_scene(const std::filesystem::path& path, const Overrides& overrides, PluginHost& host,
                  Registry& registry) {
   const std::string name = path.string();
+  require_printable(name);
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) throw Error({name, 0, 0}, "there is no such file");
   constexpr std::size_t read_at_most = (1 << 20) + 1;  // one byte more than parse_yaml accepts

@@ -31,6 +31,9 @@ struct Scene {
   Diagnostics warnings;
 };
 
+/// The version of the format that this Seam reads. It grows when a scene of today would mean something else.
+constexpr long scene_format = 1;
+
 /// The keys of a scene.
 Schema scene_schema();
 

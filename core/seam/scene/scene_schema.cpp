@@ -220,6 +220,10 @@ Schema study_schema() {
 
 Schema scene_schema() {
   Schema schema("A scene: meshes, fields on them, interfaces between fields, and what happens there.");
+  schema.integer("format", "version of the scene's format; a newer one is refused")
+      .at_least(1)
+      .at_most(static_cast<double>(scene_format))
+      .otherwise("1");
   schema.text("title", "what the scene shows");
   schema.text("source", "where it comes from: a paper, a benchmark").optional();
   schema

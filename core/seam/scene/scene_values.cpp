@@ -58,21 +58,14 @@ bool is_or_is_within(std::string_view path, std::string_view block) {
 
 /// Whether a value may change in a run that goes on without making it another simulation.
 bool is_harmless(const std::string& path) {
-  constexpr std::array<std::string_view, 15> harmless{"title",
-                                                      "source",
-                                                      "tier",
-                                                      "checks",
-                                                      "study",
-                                                      "plugin_folders",
-                                                      "output.folder",
-                                                      "output.every",
-                                                      "output.fields",
-                                                      "output.cut",
-                                                      "output.interfaces",
-                                                      "output.picture",
-                                                      "output.statistics",
-                                                      "output.errors",
-                                                      "output.restart"};
+  constexpr std::array<std::string_view, 16> harmless{"format",         "title",
+                                                      "source",         "tier",
+                                                      "checks",         "study",
+                                                      "plugin_folders", "output.folder",
+                                                      "output.every",   "output.fields",
+                                                      "output.cut",     "output.interfaces",
+                                                      "output.picture", "output.statistics",
+                                                      "output.errors",  "output.restart"};
   return std::ranges::any_of(harmless, [&](std::string_view block) { return is_or_is_within(path, block); });
 }
 

@@ -9,6 +9,8 @@
 #include <limits>
 #include <optional>
 
+#include "seam/base/policy.hpp"
+
 namespace seam {
 
 namespace {
@@ -349,11 +351,23 @@ class Validator {
     }
     const std::filesystem::path full = context_.folder / node.scalar;
     std::error_code code;
+    if (!is_below(full, context_.folder)) {
+      const std::string message = fmt::format("{}: '{}' is a file outside the scene's folder", path,
+                                              full.lexically_normal().string());
+      if (policy().restricted) {
+        error(node, message + ", which --restricted does not allow to be read; put it beside the scene");
+        return {};
+      }
+      context_.diagnostics.warning(node.where(), message);
+    }
     if (context_.files_must_exist && !std::filesystem::is_regular_file(full, code)) {
       error(node, fmt::format("{}: there is no file '{}'; it is looked for at '{}' (relative to the scene)",
                               path, node.scalar, full.lexically_normal().string()));
       return {};
     }
+    if (const auto bytes = std::filesystem::file_size(full, code); !code)
+      require_within(static_cast<double>(bytes), policy().limits.file_bytes, "file_bytes",
+                     fmt::format("bytes in the file '{}'", node.scalar), node.where());
     return Value{full.lexically_normal().string(), {}, {}};
   }
 

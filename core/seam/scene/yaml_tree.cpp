@@ -7,6 +7,7 @@
 
 #include <set>
 #include <sstream>
+#include <string_view>
 
 namespace seam {
 
@@ -63,6 +64,18 @@ std::size_t first_bad_byte(const std::string& s) {
   return std::string::npos;
 }
 
+/// Whether UTF-8 text begins with a control character beyond ASCII, a line separator, or a mark that turns
+/// the direction of writing.
+bool is_invisible_control(std::string_view text) {
+  if (text.size() < 2) return false;
+  const auto second = static_cast<unsigned char>(text[1]);
+  if (text[0] == '\xc2') return second < 0xa0;
+  if (text.size() < 3 || text[0] != '\xe2') return false;
+  const auto third = static_cast<unsigned char>(text[2]);
+  return (second == 0x80 && third >= 0xa8 && third <= 0xae) ||
+         (second == 0x81 && third >= 0xa6 && third <= 0xa9);
+}
+
 /// The text's own line and column, counted from 1.
 Location place_of(const std::string& text, std::size_t offset, const std::string& name) {
   Location where{name, 1, 1};
@@ -89,7 +102,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     YamlNode node = make(YamlNode::Kind::scalar, mark, tag, anchor);
-    node.scalar = value;
+    node.scalar = printable(value, mark);
     node.quoted = tag == "!";
     add(std::move(node));
   }
@@ -114,6 +127,22 @@ class TreeBuilder : public YAML::EventHandler {
   [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& what) const {
     throw Error(location(mark),
                 what + " is not allowed in a scene; write the value out, or use `parameters` for numbers");
+  }
+
+  /// A value ends up in messages and logs: line breaks of long texts become spaces; other control characters,
+  /// and those that turn the direction of writing, would let it forge lines there.
+  [[nodiscard]] std::string printable(std::string text, const YAML::Mark& mark) const {
+    std::size_t bad = first_bad_byte(text);
+    for (std::size_t i = 0; i + 1 < text.size() && bad == std::string::npos; ++i)
+      if (is_invisible_control(text.substr(i, 3))) bad = i;
+    if (bad != std::string::npos)
+      throw Error(location(mark),
+                  fmt::format("found a control character, byte 0x{:02x}, in a value; expected text that "
+                              "can be seen; remove it (or its escape, as \\e or \\u009b)",
+                              static_cast<unsigned char>(text[bad])));
+    for (char& c : text)
+      if (c == '\n' || c == '\t' || c == '\r') c = ' ';
+    return text;
   }
 
   [[nodiscard]] Location location(const YAML::Mark& mark) const {
@@ -161,6 +190,8 @@ class TreeBuilder : public YAML::EventHandler {
     if (is_key && node.kind != YamlNode::Kind::scalar) {
       throw Error(node.where(), fmt::format("found {} as a key; expected a word", node.found()));
     }
+    // Programs that read YAML 1.1 take the key `on` for a truth value and write it back as one.
+    if (is_key && (node.scalar == "true" || node.scalar == "True")) node.scalar = "on";
     (is_key ? parent.keys : parent.items).push_back(std::move(node));
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "seam/base/policy.hpp"
 #include "seam/mesh/input/grid.hpp"
 
 namespace seam {
@@ -105,6 +106,27 @@ std::vector<double> segment_lines(const Parameters& p, int i) {
     lines.insert(lines.end(), next.begin() + 1, next.end());
   }
   return lines;
+}
+
+/// Cells along a direction by the scene's word, before there is anything of them.
+double count_along(const Parameters& p, int i) {
+  const char* axis = axis_names[i];
+  if (p.has("lines") && p.object("lines").has(axis))
+    return static_cast<double>(p.object("lines").vector(axis).size()) - 1;
+  if (p.has("segments") && p.object("segments").has(axis)) {
+    double count = 0;
+    for (const Parameters& segment : p.object("segments").list(axis))
+      count += static_cast<double>(segment.integer("cells"));
+    return count;
+  }
+  return p.has("cells") ? entry(p, "cells", i) : 1;
+}
+
+void require_allowed_size(const Parameters& p, CellType cell, int dimension) {
+  double cells = cell == CellType::triangle ? 2 : cell == CellType::tetrahedron ? 6 : 1;
+  for (int i = 0; i < dimension; ++i) cells *= std::max(1.0, count_along(p, i));
+  const char* key = p.has("cells") ? "cells" : p.has("segments") ? "segments" : "lines";
+  require_within(cells, policy().limits.cells, "cells", "cells in the grid", p.where(key));
 }
 
 std::vector<double> lines_along(const Parameters& p, int i) {
@@ -236,6 +258,7 @@ MeshData load_grid(const Parameters& p, int dimension) {
   Grid grid;
   grid.cell = cell_type(p, dimension);
   grid.order = static_cast<int>(p.integer("order"));
+  require_allowed_size(p, grid.cell, dimension);
   for (int i = 0; i < dimension; ++i) grid.lines[i] = lines_along(p, i);
   if (p.has("diagonals")) {
     if (grid.cell != CellType::triangle)

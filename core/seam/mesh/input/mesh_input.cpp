@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 
+#include "seam/base/policy.hpp"
 #include "seam/mesh/input/face_match.hpp"
 #include "seam/mesh/input/grid.hpp"
 
@@ -74,6 +75,11 @@ MeshData read_file(const Parameters& p) {
     throw Error(p.where("numbers"), "only a geometry (.geo) has numbers that can be set");
   if (extension == ".msh")
     mesh = read_gmsh(path);
+  else if (extension == ".geo" && policy().restricted)
+    throw Error(p.where("file"),
+                fmt::format("'{}' is a geometry, which gmsh would run as a program: --restricted "
+                            "allows none; mesh it elsewhere and name the .msh file",
+                            path));
   else if (extension == ".geo")
     mesh = mesh_geometry(path, numbers, p.dimension());
   else if (extension == ".vtu")
@@ -83,6 +89,8 @@ MeshData read_file(const Parameters& p) {
                 fmt::format("cannot tell the format of mesh file '{}'; expected a name that ends in "
                             ".msh or .geo (Gmsh) or .vtu (VTK)",
                             path));
+  require_within(mesh.cell_count(), policy().limits.cells, "cells", "cells in the mesh file",
+                 p.where("file"));
   if (mesh.dimension != p.dimension())
     throw Error(p.where("file"),
                 fmt::format("mesh '{}' consists of {}s and so has dimension {}, but the scene has "
