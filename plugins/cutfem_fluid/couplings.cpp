@@ -124,6 +124,11 @@ void declare_couplings(Registry& registry) {
   registry.add<Coupling>(
       "coupling", "fluid_patch", FluidPatch::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<FluidPatch>(p); });
+  registry.publishes(
+      "coupling", "fluid_patch",
+      {{Published::As::series, "jump", "m/s m^((d-1)/2)", "L2 norm of the difference of the velocities"},
+       {Published::As::series, "transfer", "m^d/s",
+        "rate at which fluid goes through the border that moves"}});
 }
 
 }  // namespace seam::fluid

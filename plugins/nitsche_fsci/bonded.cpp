@@ -117,6 +117,9 @@ class Bond final : public Coupling {
 void declare_bonded(Registry& registry) {
   registry.add<Coupling>("coupling", "bonded", Bond::schema(),
                          [](const Parameters& p, const Registry&) { return std::make_unique<Bond>(p); });
+  registry.publishes(
+      "coupling", "bonded",
+      {{Published::As::series, "apart", "m m^((d-1)/2)", "L2 norm of the difference of the displacements"}});
 }
 
 }  // namespace seam::fsci

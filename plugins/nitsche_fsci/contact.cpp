@@ -118,6 +118,12 @@ void declare_contact(Registry& registry) {
   registry.add<Coupling>(
       "coupling", "contact", ContactCoupling::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<ContactCoupling>(p); });
+  registry.publishes("coupling", "contact",
+                     {{Published::As::series, "gap", "m",
+                       "least gap; below 0 an overlap, infinite where nothing is opposite"},
+                      {Published::As::series, "overlap", "m m^((d-1)/2)", "L2 norm of the overlap"},
+                      {Published::As::series, "area", "m^(d-1)", "in touch"},
+                      {Published::As::series, "pressure", "Pa", "greatest pressure"}});
 }
 
 }  // namespace seam::fsci

@@ -145,6 +145,23 @@ void declare_contact_in_fluid(Registry& registry) {
   registry.add<Coupling>(
       "coupling", "contact_in_fluid", ContactInFluid::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<ContactInFluid>(p); });
+  registry.publishes(
+      "coupling", "contact_in_fluid",
+      {{Published::As::series, "mismatch", "m/s m^((d-1)/2)",
+        "L2 norm of the fluid's velocity less that of the body"},
+       {Published::As::series, "gap", "m",
+        "least gap; below 0 an overlap, infinite where nothing is opposite"},
+       {Published::As::series, "contact_area", "m^(d-1)", "in touch"},
+       {Published::As::series, "contact_pressure", "Pa", "greatest pressure of contact"},
+       {Published::As::series, "fluid_outflow", "m^d/s",
+        "rate at which the fluid goes through the wet surface"},
+       {Published::As::series, "body_outflow", "m^d/s", "rate at which the surface itself moves out"},
+       {Published::As::series, "contact_force.x", "N", "force of contact on the body"},
+       {Published::As::series, "force.x", "N", "force of contact and fluid on the body"},
+       {Published::As::series, "contact_force.y", "N", "force of contact on the body"},
+       {Published::As::series, "force.y", "N", "force of contact and fluid on the body"},
+       {Published::As::series, "contact_force.z", "N", "force of contact on the body"},
+       {Published::As::series, "force.z", "N", "force of contact and fluid on the body"}});
 }
 
 }  // namespace seam::fsci

@@ -111,6 +111,14 @@ class Fpi final : public Coupling {
 void declare_fpi(Registry& registry) {
   registry.add<Coupling>("coupling", "fpi", Fpi::schema(),
                          [](const Parameters& p, const Registry&) { return std::make_unique<Fpi>(p); });
+  registry.publishes(
+      "coupling", "fpi",
+      {{Published::As::series, "mismatch_across", "m/s m^((d-1)/2)",
+        "L2 norm of what the condition across the interface leaves"},
+       {Published::As::series, "mismatch_along", "m/s m^((d-1)/2)",
+        "L2 norm of what the condition along it leaves"},
+       {Published::As::series, "seepage", "m^d/s", "rate at which fluid enters or leaves the pores"},
+       {Published::As::series, "body_outflow", "m^d/s", "rate at which the surface itself moves out"}});
 }
 
 }  // namespace seam::fsci

@@ -104,6 +104,9 @@ class Fsi final : public Coupling {
 void declare_fsi(Registry& registry) {
   registry.add<Coupling>("coupling", "fsi", Fsi::schema(),
                          [](const Parameters& p, const Registry&) { return std::make_unique<Fsi>(p); });
+  registry.publishes("coupling", "fsi",
+                     {{Published::As::series, "mismatch", "m/s m^((d-1)/2)",
+                       "L2 norm of the fluid's velocity less that of the body"}});
 }
 
 }  // namespace seam::fsci

@@ -11,7 +11,25 @@ SEAM_PLUGIN(registry) {
   registry.add<Physics>("field", "solid", solid::Solid::schema(), [](const Parameters& p, const Registry& r) {
     return std::make_unique<solid::Solid>(p, r);
   });
+  registry.publishes(
+      "field", "solid",
+      {{Published::As::quantity, "displacement", "m", "of the material points"},
+       {Published::As::quantity, "velocity", "m/s", "its rate; of a solid with mass"},
+       {Published::As::quantity, "pressure", "Pa", "of a mixed formulation"},
+       {Published::As::quantity, "dilation", "", "of a mixed formulation: volume over reference volume"},
+       {Published::As::quantity, "body_force", "m/s^2", "where it is interpolated from the nodes"},
+       {Published::As::quantity, "cauchy_stress", "Pa", "true stress, by components xx, xy, ..."},
+       {Published::As::quantity, "von_mises", "Pa", "equivalent stress"},
+       {Published::As::series, "strain_energy", "J", "energy of the deformation"},
+       {Published::As::series, "kinetic_energy", "J", "of a solid with mass"},
+       {Published::As::series, "volume", "m^d", "of the deformed body"},
+       {Published::As::series, "volume_rate", "m^d/s", "its rate; of a solid with mass"}});
   registry.add<Physics>(
       "field", "rigid_body", solid::RigidBody::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<solid::RigidBody>(p); });
+  registry.publishes("field", "rigid_body",
+                     {{Published::As::quantity, "translation", "m", "of the centre"},
+                      {Published::As::quantity, "rotation", "rad",
+                       "about the centre: an angle in the plane, a vector in space"},
+                      {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});
 }

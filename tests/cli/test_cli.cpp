@@ -74,6 +74,11 @@ TEST_CASE("seam plugins shows what can be used and what cannot") {
 TEST_CASE("seam explain and seam schema know the types of plugins") {
   CHECK_THAT(seam("explain").output, Contains("linear_solver") && Contains("A field for the tests. (beam)"));
   CHECK_THAT(seam("explain linear_solver:direct").output, Contains("(plugin core)"));
+  CHECK_THAT(
+      seam("explain solid").output,
+      Contains("Quantities, for probes and pictures:\n  displacement [m]: ") &&
+          Contains(
+              "Series, recorded at every step by the name of the field, a dot, and\n  strain_energy [J]: "));
   const Result result = seam("schema --plugins beam");
   REQUIRE(result.code == 0);
   const auto schema = nlohmann::json::parse(result.output);

@@ -78,7 +78,7 @@ TEST_CASE("a geometry that does more than describe shapes is refused before gmsh
       {"Merge \"link.geo\";", "not below the geometry's folder"},
       {"Merge \"inside.txt\";", "expected a geometry (.geo)"},
       {"x = \"" + long_text + "; SystemCall 'touch @';\n//\";", "a text that does not end", false},
-      {std::string("/* \0 */ SystemCall 'touch @'; /* */", 36), "control character 0x00", false},
+      {std::string("/* ") + '\0' + " */ SystemCall 'touch @'; /* */", "control character 0x00", false},
       {"Field[1] = ExternalProcess; Field[1].CommandLine = \"touch @\"; Background Field = 1;",
        "ExternalProcess"},
       {"OnelabRun(\"x\", \"touch @\");", "'OnelabRun'", false},
@@ -314,7 +314,7 @@ TEST_CASE("a scene that asks for more than is allowed is refused where it asks, 
     static_cast<void>(here.file("scene.yaml", one.scene));
     // 2 GB would do for all that is below the limits.
     const Result result =
-        seam("check scene.yaml " + one.options, "sh -c 'ulimit -v 2000000; exec \"$@\"' sh");
+        seam("check " + one.options + " scene.yaml", "sh -c 'ulimit -v 2000000; exec \"$@\"' sh");
     CHECK(result.code == 2);
     CHECK_THAT(result.output, Contains("scene.yaml:") && Contains(one.found));
   }

@@ -231,7 +231,7 @@ TEST_CASE("mutations of a scene never do worse than an error") {
 TEST_CASE("schema, explanation and list of types come from the declarations") {
   Registry registry;
   register_test_types(registry);
-  check_golden(explain(*registry.find("field", "bar")), folder / "golden/explain_bar.txt");
+  check_golden(explain(*registry.find("field", "bar"), registry), folder / "golden/explain_bar.txt");
   const std::string types = list_types(registry);
   CHECK_THAT(types, Contains("steel") && Contains("An elastic body, for the tests. (core)"));
   const std::string schema = json_schema(scene_schema(), registry);

@@ -29,7 +29,7 @@ int explain_one(const std::string& name, const Registry& registry) {
     known.push_back(entry.name);
     // Types of two kinds may share a name; "kind:name" picks one.
     if (entry.name != name && entry.kind + ":" + entry.name != name) continue;
-    fmt::print("{}{}", found ? "\n" : "", explain(entry));
+    fmt::print("{}{}", found ? "\n" : "", explain(entry, registry));
     found = true;
   }
   if (found) return ok;

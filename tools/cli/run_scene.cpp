@@ -22,7 +22,7 @@ namespace {
 /// folder that the scene lies in.
 std::filesystem::path default_folder(const Scene& scene) {
   const std::string name = scene.path.stem().string();
-  const std::filesystem::path usual = std::filesystem::path("results") / name;
+  std::filesystem::path usual = std::filesystem::path("results") / name;
   if (!ResultsFolder::belongs_to_another(usual, scene)) return usual;
   const std::string parent = std::filesystem::absolute(scene.path).parent_path().filename().string();
   return std::filesystem::path("results") / (name + "-" + parent);
@@ -78,7 +78,7 @@ std::filesystem::path make_picture(const Scene& scene, ResultsFolder& results, b
 /// Collective.
 nlohmann::json write_summary(Simulation& simulation, const std::vector<CheckResult>& checks,
                              ResultsFolder& folder, const Communicator& communicator) {
-  const nlohmann::json summary = simulation.summary(checks);
+  nlohmann::json summary = simulation.summary(checks);
   all_or_none<FileError>(communicator, [&] {
     if (communicator.rank() != 0) return;
     folder.claim("summary.json", ResultsFolder::at_the_end);
@@ -116,7 +116,7 @@ std::string name_newest_restart(const ResultsFolder& folder) {
 std::string record_failure(Simulation& simulation, ResultsFolder& folder, const Communicator& communicator) {
   const bool keeps = !is_own_fault();
   const std::string message = agree_on_exception();
-  const std::string text = message.starts_with("error: ") ? message : "error: " + message;
+  std::string text = message.starts_with("error: ") ? message : "error: " + message;
   const std::string status = communicator.any(keeps) ? "broken" : "failed";
   try {
     simulation.record_failure(message);

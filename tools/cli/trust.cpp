@@ -52,7 +52,8 @@ void Trust::add_options(CLI::App& app) {
                  "another limit: NAME=NUMBER with cells, facets, unknowns, file_bytes, mesher_seconds, "
                  "mesher_bytes or "
                  "seconds; may be repeated")
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void Trust::apply() const {

@@ -49,4 +49,5 @@ void declare_heat(Registry& registry) {
   s.list("boundary", "Conditions on the boundary", boundary).otherwise("[]");
   registry.add<Physics>("field", "heat", s,
                         [](const Parameters& p, const Registry&) { return std::make_unique<Heat>(p); });
+  registry.publishes("field", "heat", {{Published::As::quantity, "temperature", "K", "of the body"}});
 }

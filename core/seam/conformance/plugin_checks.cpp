@@ -70,7 +70,7 @@ ConformanceCheck check_schema(const Registry::Entry& entry, const Registry& regi
   find_bad_targets(entry.schema, kinds, "", problems);
   std::sort(problems.begin(), problems.end());
   problems.erase(std::unique(problems.begin(), problems.end()), problems.end());
-  const std::string page = explain(entry);
+  const std::string page = explain(entry, registry);
   for (const Parameter& p : entry.schema.parameters())
     if (page.find(p.name) == std::string::npos)
       problems.push_back(fmt::format("`seam explain` leaves out '{}'", p.name));

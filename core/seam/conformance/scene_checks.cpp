@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/conformance/scene_checks.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 #include "seam/base/plugin_fault.hpp"
 #include "seam/conformance/tangent.hpp"
@@ -60,6 +61,58 @@ ConformanceCheck check_own(const Scene& scene, const Results& results) {
   return conformance_check(
       "the scene's own checks", wrong.empty(),
       wrong.empty() ? fmt::format("{} of {} hold", outcomes.size(), outcomes.size()) : wrong);
+}
+
+/// Collects what is made but not declared.
+class Undeclared {
+ public:
+  Undeclared(const Registry& registry, std::string kind, const std::vector<std::string>& types)
+      : kind_(std::move(kind)), types_(types) {
+    for (const std::string& type : types)
+      for (const Published& p : registry.published(kind_, type)) units_[{p.as, p.name}] = p.unit;
+  }
+  /// @param unit null where what is made has none of its own
+  void find(Published::As as, const std::string& name, const std::string* unit, std::string& wrong) const {
+    const auto declared = units_.find({as, name});
+    const std::string of = fmt::format("{} {} '{}' of {} '{}'", wrong.empty() ? "" : "\n",
+                                       as == Published::As::series ? "the series" : "the quantity", name,
+                                       kind_, fmt::join(types_, "', '"));
+    if (declared == units_.end())
+      wrong += of + " is not declared by Registry::publishes, so that `seam explain` leaves it out";
+    else if (unit && *unit != declared->second)
+      wrong += fmt::format("{} has the unit '{}', declared is '{}'", of, *unit, declared->second);
+  }
+
+ private:
+  std::string kind_;
+  std::vector<std::string> types_;
+  std::map<std::pair<Published::As, std::string>, std::string> units_;
+};
+
+/// What `seam explain` says of the types against what the scene gets of them.
+ConformanceCheck check_published(const Scene& scene, const Registry& registry, Problem& problem) {
+  std::string wrong;
+  std::size_t count = 0;
+  for (const auto& [name, parameters] : scene.root.map("fields")) {
+    const Undeclared undeclared(registry, "field", {parameters.type()});
+    const FieldEntry& entry = problem.field(name);
+    for (const Unknown& unknown : entry.field->unknowns())
+      undeclared.find(Published::As::quantity, unknown.name, &unknown.unit, wrong);
+    for (const FieldQuantity& output : entry.outputs)
+      undeclared.find(Published::As::quantity, output.name, nullptr, wrong);
+    for (const FieldQuantity& integral : entry.integrals)
+      undeclared.find(Published::As::series, integral.name, nullptr, wrong);
+    count += entry.field->unknowns().size() + entry.outputs.size() + entry.integrals.size();
+  }
+  for (const InterfaceMeasure& measure : problem.measures()) {
+    std::vector<std::string> types;
+    for (const Parameters& coupling : scene.root.list("coupling"))
+      if (coupling.text("on") == measure.interface) types.push_back(coupling.type());
+    Undeclared(registry, "coupling", types).find(Published::As::series, measure.name, nullptr, wrong);
+    ++count;
+  }
+  return conformance_check("quantities and series are declared", wrong.empty(),
+                           wrong.empty() ? fmt::format("{} of {}", count, count) : wrong);
 }
 
 RunOptions quiet_run(const std::filesystem::path& folder) {
@@ -163,6 +216,7 @@ std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& re
     Simulation whole(scene, registry, Communicator());
     const Results results = whole.run(quiet_run(folder / "whole"));
     checks.push_back(check_own(scene, results));
+    checks.push_back(check_published(scene, registry, whole.problem()));
 
     begin("restart");
     Simulation half(scene, registry, Communicator());

@@ -17,7 +17,7 @@ namespace seam {
 /// (minor). Which public headers go with a number, abi.txt in this folder says by a hash, which
 /// tools/headers.py writes there.
 inline constexpr std::uint16_t plugin_abi_major = 9;
-inline constexpr std::uint16_t plugin_abi_minor = 1;
+inline constexpr std::uint16_t plugin_abi_minor = 2;
 
 /// Describes a plugin without running any of its code: it lies in an ELF note section of the shared library
 /// and is read from the file. Texts end with a zero byte. Later minor versions may append members.

@@ -29,7 +29,22 @@ std::string Registry::describe(const Entry& entry) {
                      entry.plugin == "core" ? "" : fmt::format(" of plugin '{}'", entry.plugin));
 }
 
+void Registry::publishes(const std::string& kind, const std::string& name, std::vector<Published> what) {
+  if (!find(kind, name))
+    throw Error(fmt::format("plugin '{}' says what {} '{}' publishes before it has registered it",
+                            current_plugin_, kind, name));
+  published_[{kind, name}] = std::move(what);
+}
+
+const std::vector<Published>& Registry::published(const std::string& kind, const std::string& name) const {
+  static const std::vector<Published> nothing;
+  const auto found = published_.find({kind, name});
+  return found == published_.end() ? nothing : found->second;
+}
+
 void Registry::remove_plugin(const std::string& name) {
+  for (const Entry& entry : entries_)
+    if (entry.plugin == name) published_.erase({entry.kind, entry.name});
   std::erase_if(entries_, [&](const Entry& e) { return e.plugin == name; });
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <typeindex>
+#include <utility>
 #include <vector>
 
 #include "seam/base/plugin_fault.hpp"
@@ -12,6 +14,16 @@
 #include "seam/scene/schema.hpp"
 
 namespace seam {
+
+/// A number that a type makes, for `seam explain`: what probes and pictures may ask a field for, or a series
+/// that is recorded at every step as `NAME.name`, with the scene's name of the field or interface.
+struct Published {
+  enum class As { quantity, series };
+  As as;
+  std::string name;
+  std::string unit;  ///< "" for a pure number; d stands for the dimension of space
+  std::string help;
+};
 
 /// All types that scenes may name, by kind ("field", "interface", "coupling", and any kind a plugin defines,
 /// such as "hyperelastic"). Each entry carries the schema of its parameters and the plugin it came from.
@@ -51,6 +63,13 @@ class Registry {
 
   /// "coupling 'contact' of plugin 'nitsche_fsci'", for messages.
   [[nodiscard]] static std::string describe(const Entry& entry);
+  /// Says what a type that was added makes, all that it can: what a scene gets of it may depend on its keys.
+  /// The conformance kit compares it with what is made.
+  /// @throws Error when there is no such type
+  void publishes(const std::string& kind, const std::string& name, std::vector<Published> what);
+  [[nodiscard]] const std::vector<Published>& published(const std::string& kind,
+                                                        const std::string& name) const;
+
   [[nodiscard]] const Entry* find(const std::string& kind, const std::string& name) const;
   [[nodiscard]] std::vector<std::string> names(const std::string& kind) const;
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
@@ -66,6 +85,7 @@ class Registry {
                                      std::type_index interface, const Location& where) const;
   std::vector<Entry> entries_;
   std::string current_plugin_ = "core";
+  std::map<std::pair<std::string, std::string>, std::vector<Published>> published_;  ///< by kind and name
 };
 
 }  // namespace seam

@@ -8,8 +8,8 @@
 
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
-#include "seam/base/policy.hpp"
 #include "seam/base/plugin_fault.hpp"
+#include "seam/base/policy.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/cut/cell_costs.hpp"
 #include "seam/mesh/input/mesh_input.hpp"

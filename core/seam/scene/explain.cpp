@@ -25,6 +25,17 @@ void write(const Schema& schema, int depth, std::string& out) {
   }
 }
 
+void write(const std::vector<Published>& published, Published::As as, const std::string& heading,
+           std::string& out) {
+  bool is_first = true;
+  for (const Published& p : published) {
+    if (p.as != as) continue;
+    if (is_first) out += "\n" + heading + "\n";
+    is_first = false;
+    out += fmt::format("  {}{}: {}\n", p.name, p.unit.empty() ? "" : fmt::format(" [{}]", p.unit), p.help);
+  }
+}
+
 }  // namespace
 
 std::string explain(const Schema& schema) {
@@ -33,10 +44,16 @@ std::string explain(const Schema& schema) {
   return result;
 }
 
-std::string explain(const Registry::Entry& entry) {
+std::string explain(const Registry::Entry& entry, const Registry& registry) {
   std::string result = fmt::format("{} '{}' (plugin {})\n{}\n\n", entry.kind, entry.name, entry.plugin,
                                    entry.schema.summary());
   write(entry.schema, 0, result);
+  const std::vector<Published>& published = registry.published(entry.kind, entry.name);
+  write(published, Published::As::quantity, "Quantities, for probes and pictures:", result);
+  write(published, Published::As::series,
+        fmt::format("Series, recorded at every step by the name of the {}, a dot, and",
+                    entry.kind == "coupling" ? "interface" : entry.kind),
+        result);
   return result;
 }
 

@@ -12,7 +12,7 @@ namespace seam {
 std::string explain(const Schema& schema);
 
 /// The same for a type, headed by its name, kind and plugin.
-std::string explain(const Registry::Entry& entry);
+std::string explain(const Registry::Entry& entry, const Registry& registry);
 
 /// All types by kind, one line each.
 std::string list_types(const Registry& registry);

@@ -82,7 +82,7 @@ Schema picture_schema() {
   Schema schema("A picture of the last state, as PNG.");
   schema.reference("field", "whose mesh is shown", "field");
   schema.text("quantity",
-              "what colours it: an unknown or another quantity of the field (a wrong name lists them)");
+              "what colours it: an unknown or another quantity of the field (`seam explain` lists them)");
   schema.choice("component", "of a vector quantity; default its magnitude", {"x", "y", "z", "magnitude"})
       .optional();
   schema.number("deformed", "scale of the displacement that moves the mesh; 0 for none").otherwise("1");
@@ -100,7 +100,8 @@ Schema probe_schema() {
   schema.names("on", "boundaries instead of a point").naming("boundary").optional();
   schema.text(
       "quantity",
-      "an unknown or another quantity of the field (a wrong name lists them); reaction, the force that holds "
+      "an unknown or another quantity of the field (`seam explain` lists them); reaction, the force that "
+      "holds "
       "what is prescribed on `on`; or force, what the side named first (`field` of a cut, `from`) exerts "
       "through `interface` on the other: the body, `to`, the obstacle");
   schema.choice("component", "of a vector quantity; default all of them", {"x", "y", "z", "magnitude"})
