@@ -97,6 +97,8 @@ bool is_own_fault() {
     return false;
   } catch (const OutOfMemory&) {
     return false;
+  } catch (const PluginFault&) {
+    return false;
   } catch (const Error&) {
     return true;
   } catch (...) {

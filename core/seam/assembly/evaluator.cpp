@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 #include "seam/assembly/binding.hpp"
 #include "seam/base/plugin_fault.hpp"
@@ -283,6 +284,8 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
     term.bound.term->evaluate(batch, point_residual_.data(),
                               with_tangent && columns > 0 ? point_tangent_.data() : nullptr);
   } catch (const StepRefused&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
     throw PluginFault(term.bound.where, fmt::format("{} failed {}: {}", describe(term.bound, *domain_),

@@ -57,8 +57,8 @@ void set_limit(Limits& limits, const std::string& name, double value) {
 void require_within(double found, double limit, const char* name, const std::string& what,
                     const Location& where) {
   if (found <= limit) return;
-  throw Error(where, fmt::format("found {:.10g} {}, at most {:g} are allowed; take fewer, or raise the "
-                                 "limit by --limit {}={:.10g}",
+  throw Error(where, fmt::format("found {:.15g} {}, at most {:g} are allowed; take fewer, or raise the "
+                                 "limit by --limit {}={:.15g}",
                                  found, what, limit, name, found));
 }
 
