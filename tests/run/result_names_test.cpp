@@ -89,6 +89,6 @@ TEST_CASE("errors of what is built come all at once") {
                 "--quiet");
   CAPTURE(run.done.output);
   CHECK(run.done.code == 2);
-  for (const char* part : {"far", "speed", "interfaces: no coupling", "cut: no interface", "vorticity"})
+  for (const char* part : {"(9, 9)", "speed", "interfaces: no coupling", "cut: no interface", "vorticity"})
     CHECK_THAT(run.done.output, Contains(part));
 }
