@@ -91,4 +91,16 @@ TEST_CASE("errors of what is built come all at once") {
   CHECK(run.done.code == 2);
   for (const char* part : {"(9, 9)", "speed", "interfaces: no coupling", "cut: no interface", "vorticity"})
     CHECK_THAT(run.done.output, Contains(part));
+
+  // Interfaces before them, each by itself: a boundary of two faces does not match one of three.
+  const std::string apart =
+      "--quiet --set meshes.other='{grid: {from: [1, 0], to: [2, 1], cells: [3, 3]}}' --set "
+      "fields.other='{type: solid, mesh: other, density: 1, material: {type: neo_hookean, young: 1, poisson: "
+      "0.3}}' --set interfaces.first='{type: matching, fields: [block, other], boundaries: [x_max, x_min]}' "
+      "--set interfaces.second='{type: matching, fields: [other, block], boundaries: [x_min, x_max]}'";
+  const Run both(block(""), apart);
+  CAPTURE(both.done.output);
+  CHECK(both.done.code == 2);
+  CHECK_THAT(both.done.output, Contains("the face of 'block' on boundary 'x_max'") &&
+                                   Contains("the face of 'other' on boundary 'x_min'"));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "seam/assembly/together.hpp"
+#include "seam/base/plugin_fault.hpp"
 #include "solver/diffusion.hpp"
 
 using namespace seam;
@@ -42,6 +43,28 @@ struct Refusing {
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     if (x.position[0] < 0.2 && x.position[1] < 0.2) throw StepRefused("too far in the corner");
     r.value(c{}) += s.value(c{}) - 1.0;
+  }
+};
+
+/// Reads a rate of an unknown that has none, with a factor that may be 0.
+template <int factor>
+struct WithRate {
+  using Reads = Slots<Value<c>, Rate<c>>;
+  using Tests = Slots<Value<c>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(c{}) += s.value(c{}) - 1.0;
+    if (factor > 0) r.value(c{}) += factor * s.rate(c{});
+  }
+};
+
+/// Names a rate without use, and is no number where it is tried whether it depends on it.
+struct NotAtHome {
+  using Reads = Slots<Value<c>, Rate<c>>;
+  using Tests = Slots<Value<c>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(c{}) += sqrt(s.value(c{}) - 10.0);
   }
 };
 
@@ -103,4 +126,12 @@ TEST_CASE("What fails on one rank fails on all, with the message of that rank", 
   CHECK_THROWS_AS(fail(true), StepRefused);
   CHECK_THROWS_WITH(fail(false), "broken");
   CHECK_NOTHROW(together(all, [] {}));
+}
+
+TEST_CASE("a term that depends on a rate of an unknown without is refused; one that only names it is not") {
+  CHECK_THROWS_AS(problem_of<WithRate<1>>(), PluginFault);
+  CHECK_THROWS_WITH(problem_of<WithRate<1>>(),
+                    Catch::Contains("it depends on a rate of 'c', which has none"));
+  CHECK_NOTHROW(problem_of<WithRate<0>>());
+  CHECK_NOTHROW(problem_of<NotAtHome>());
 }

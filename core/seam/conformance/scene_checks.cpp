@@ -74,7 +74,7 @@ class Undeclared {
   /// @param unit null where what is made has none of its own
   void find(Published::As as, const std::string& name, const std::string* unit, std::string& wrong) const {
     const auto declared = units_.find({as, name});
-    const std::string of = fmt::format("{} {} '{}' of {} '{}'", wrong.empty() ? "" : "\n",
+    const std::string of = fmt::format("{}{} '{}' of {} '{}'", wrong.empty() ? "" : "\n",
                                        as == Published::As::series ? "the series" : "the quantity", name,
                                        kind_, fmt::join(types_, "', '"));
     if (declared == units_.end())

@@ -132,9 +132,9 @@ PluginInfo parse_descriptor(const std::string& bytes) {
   }
   if (raw.abi_major == plugin_abi_major) {
     // An older minor version has fewer members, a newer one more.
-    constexpr std::size_t least = offsetof(PluginDescriptor, headers);
+    const std::size_t least = raw.abi_minor == 0 ? offsetof(PluginDescriptor, headers) : sizeof raw;
     const std::size_t present = std::min<std::size_t>(raw.size, note->size() - start);
-    if (present < (raw.abi_minor == 0 ? least : sizeof raw))
+    if (present < least)
       throw Error(fmt::format("its plugin descriptor has {} bytes, expected at least {}", present, least));
     std::memcpy(static_cast<void*>(&raw), note->data() + start, std::min(present, sizeof raw));
   }

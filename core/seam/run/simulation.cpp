@@ -245,18 +245,20 @@ void Simulation::build_couplings(const Registry& registry) {
       most = std::max(most, couplings.back().second->extra_degree(dimension));
     });
   std::map<std::string, Built> interfaces;
-  for (const auto& [name, interface] : interfaces_) {
-    Setup setup(*this, interface->fields(), extra_degree[name]);
+  const auto build = [&](const std::string& name, const Interface& interface) {
+    Setup setup(*this, interface.fields(), extra_degree[name]);
     const Location where = place_of(scene_, "interfaces", name);
-    auto parts =
-        needing_memory(fmt::format("the interface '{}'", name), where, [&, &called = name, &of = interface] {
-          return call_plugin(
-              where, [&] { return fmt::format("interface '{}'{}", called, plugin_of(*of)); },
-              [&] { return of->build(setup); });
-        });
+    auto parts = needing_memory(fmt::format("the interface '{}'", name), where, [&] {
+      return call_plugin(
+          where, [&] { return fmt::format("interface '{}'{}", name, plugin_of(interface)); },
+          [&] { return interface.build(setup); });
+    });
     interfaces[name] = {std::move(parts), setup.sides};
     problem_.name_interface(name, interfaces[name].parts);
-  }
+  };
+  for (const auto& [name, interface] : interfaces_)
+    errors.attempt([&, &called = name, &of = interface] { build(called, *of); });
+  errors.throw_if_any();
   std::vector<Coupling::Neighbour> neighbours;
   for (const auto& [parameters, coupling] : couplings)
     for (const auto& [name, interface] : interfaces_)
