@@ -15,6 +15,13 @@ namespace {
 
 constexpr std::array signals{SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 
+/// The address sanitizer explains crashes itself, and better.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool explained_elsewhere = true;
+#else
+constexpr bool explained_elsewhere = false;
+#endif
+
 /// Async-signal-safe, as all below is but for dladdr(): the process is lost anyway.
 void say(const char* text) { static_cast<void>(write(STDERR_FILENO, text, std::strlen(text))); }
 
@@ -55,7 +62,7 @@ void explain(int signal) {
 }  // namespace
 
 void explain_crashes() {
-#if !defined(__SANITIZE_ADDRESS__)
+  if constexpr (explained_elsewhere) return;
   // Both are loaded at their first use, which must not be in a handler; the stack may be what has overflown.
   std::array<void*, 1> frame{};
   backtrace(frame.data(), 1);
@@ -68,7 +75,6 @@ void explain_crashes() {
   action.sa_handler = explain;
   action.sa_flags = SA_ONSTACK | SA_RESETHAND | SA_NODEFER;
   for (const int signal : signals) sigaction(signal, &action, nullptr);
-#endif
 }
 
 }  // namespace seam::cli
