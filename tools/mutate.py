@@ -33,7 +33,7 @@ CHAINS = {
                "fsi:contact_in_fluid_test kit:nitsche_fsci",
     "cut": "cut cut_stress run:moving_cut_test run:separate_parts_test run:pocket_test fluid kit:cutfem_fluid "
            "scene:fsi/c01",
-    "cutfem_fluid": "fluid kit:cutfem_fluid run:moving_mesh_test scene:fluid/couette_slip scene:fluid/patch_shear "
+    "cutfem_fluid": "fluid:kernel_test fluid kit:cutfem_fluid run:moving_mesh_test scene:fluid/couette_slip scene:fluid/patch_shear "
                     "scene:fluid/vortices",
     "field": "solver run:restart_test",
     "interface": "mesh solver cut scene:solid/bonded_blocks",
