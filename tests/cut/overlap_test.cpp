@@ -44,11 +44,15 @@ TEST_CASE("bodies overlap where a vertex of one lies within the other") {
     Surface cut = one;
     std::fill(cut.points.end() - dimension, cut.points.end(), 0.4);
     CHECK_FALSE(vertex_inside(cut, box(dimension, 0.6)));
-    // A surface that is turned inside out has the same inside.
+    // A body around a hole overlaps what its surface goes through, not what lies in the hole.
     Surface turned = one;
     for (std::size_t f = 0; f < turned.facets.size(); f += dimension)
       std::swap(turned.facets[f], turned.facets[f + 1]);
     CHECK(vertex_inside(turned, box(dimension, 0.6)));
+    Surface small = box(dimension, 0);
+    for (double& x : small.points) x = 0.3 + 0.4 * x;
+    CHECK(vertex_inside(one, small));
+    CHECK_FALSE(vertex_inside(turned, small));
     // What is open has none.
     Surface open = one;
     open.closed = false;

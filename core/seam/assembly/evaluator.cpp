@@ -13,6 +13,37 @@
 #include "seam/base/plugin_fault.hpp"
 
 namespace seam {
+namespace {
+
+/// The first point of a batch at which a term fails by itself.
+int failing_point(const Term& term, const PointBatch& batch) {
+  const Signature& signature = term.signature(batch.dimension);
+  const int inputs = signature.input_size(batch.dimension),
+            outputs = signature.output_size(batch.dimension) + signature.values;
+  std::vector<double> result(static_cast<std::size_t>(outputs));
+  for (int q = 0; q < batch.count; ++q) {
+    PointBatch one = batch;
+    one.count = 1;
+    one.moves = 0;
+    const auto skip = [q](const double*& list, int width) {
+      if (list) list += static_cast<std::ptrdiff_t>(q) * width;
+    };
+    for (const double** list : {&one.position, &one.normal, &one.partner_position})
+      skip(*list, batch.dimension);
+    for (const double** list :
+         {&one.cell_size, &one.trace_size, &one.gap, &one.constant[0], &one.constant[1]})
+      skip(*list, 1);
+    skip(one.inputs, inputs);
+    try {
+      term.evaluate(one, result.data(), nullptr);
+    } catch (...) {
+      return q;
+    }
+  }
+  return 0;  // it fails where it is differentiated only, or by what it remembers
+}
+
+}  // namespace
 
 const double* ElementEvaluator::Operators::of(Shape shape) const {
   switch (shape) {
@@ -292,8 +323,9 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
+    const std::string text = text_of_exception();
     throw PluginFault(term.bound.where, fmt::format("{} failed {}: {}", describe(term.bound, *domain_),
-                                                    place_of(0), text_of_exception()));
+                                                    place_of(failing_point(*term.bound.term, batch)), text));
   }
 }
 

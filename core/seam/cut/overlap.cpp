@@ -32,6 +32,22 @@ double part_of_view(const Surface& s, int facet, const double* x) {
          (2 * std::numbers::pi);
 }
 
+/// Whether the body is what lies around the surface: its normals point inwards then.
+bool surrounds(const Surface& s) {
+  double volume = 0;
+  for (int f = 0; f < s.facet_count(); ++f) {
+    Vector p[3]{};
+    for (int k = 0; k < s.dimension; ++k)
+      for (int d = 0; d < s.dimension; ++d)
+        p[k][d] = s.points[static_cast<std::size_t>(s.facets[f * s.dimension + k]) * s.dimension + d];
+    volume += s.dimension == 2 ? p[0][0] * p[1][1] - p[0][1] * p[1][0]
+                               : p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
+                                     p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
+                                     p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+  }
+  return volume < 0;
+}
+
 struct Box {
   Vector least, most;
   explicit Box(const Surface& s) {
@@ -47,6 +63,7 @@ struct Box {
 
 std::optional<std::vector<double>> vertex_within(const Surface& a, const Surface& b) {
   const Box box(b);
+  const bool around = surrounds(b);
   double size = 0;
   for (int d = 0; d < b.dimension; ++d) size = std::max(size, box.most[d] - box.least[d]);
   for (int v = 0; v < a.point_count(); ++v) {
@@ -58,7 +75,7 @@ std::optional<std::vector<double>> vertex_within(const Surface& a, const Surface
     if (!near) continue;
     double view = 0;
     for (int f = 0; f < b.facet_count(); ++f) view += part_of_view(b, f, x);
-    if (std::abs(view) > 0.75) return std::vector<double>(x, x + a.dimension);
+    if (around ? std::abs(view) < 0.25 : view > 0.75) return std::vector<double>(x, x + a.dimension);
   }
   return std::nullopt;
 }

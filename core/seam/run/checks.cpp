@@ -20,7 +20,8 @@ double allowed_deviation(const Parameters& check, double reference) {
   } catch (const std::exception&) {
     used = 0;
   }
-  const std::string rest = used == 0 ? "?" : text.substr(used);
+  std::string rest = used == 0 ? "?" : text.substr(used);
+  std::erase(rest, ' ');
   if ((!rest.empty() && rest != "%") || value < 0)
     throw Error(check.where("within"),
                 fmt::format("`within: {}` is no deviation; write it as 0.1% or as a plain number", text));

@@ -29,11 +29,13 @@ void require_prescribed(const FieldEntry& entry, const std::vector<std::string>&
     if (is_meant && condition.unknown == first.name) return;
     if (is_meant) other = condition.unknown;
   }
-  if (!other.empty())
-    throw Error(
-        fmt::format("a reaction is what holds the first unknown of a field, here '{}', but on {} only "
-                    "'{}' is prescribed; that of another unknown cannot be recorded yet",
-                    first.name, fmt::join(boundaries, ", "), other));
+  if (other.empty())
+    throw Error(fmt::format("a reaction is what holds '{}' where it is prescribed; on {} nothing is",
+                            first.name, fmt::join(boundaries, ", ")));
+  throw Error(
+      fmt::format("a reaction is what holds the first unknown of a field, here '{}', but on {} only "
+                  "'{}' is prescribed; that of another unknown cannot be recorded yet",
+                  first.name, fmt::join(boundaries, ", "), other));
 }
 
 }  // namespace
@@ -64,6 +66,9 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
     quantity_ =
         find_quantity(entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
     if (reaction_) require_prescribed(entry, boundaries_);
+    if (quantity_.components == 1 && !component_.empty() && component_ != "magnitude" && !force_)
+      throw Error(
+          fmt::format("'{}' is one number, without components: leave `component` out", quantity_name_));
   } catch (const Error& error) {
     throw Error(p.where("quantity"), error.what());
   }

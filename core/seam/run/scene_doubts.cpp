@@ -43,11 +43,17 @@ class Doubts {
   void look_for_nothing() {
     const Communicator& communicator = built_.problem.communicator();
     for (const auto& [name, parts] : built_.problem.interfaces()) {
+      const std::string& interface_name = name;
       // Contact finds what is opposite when it comes near.
       const auto of_first = [&, &first = parts.front()](const FieldEntry& entry) {
         return entry.field.get() == first.domain->fields().front() && entry.cut;
       };
       if (std::ranges::none_of(built_.problem.fields(), of_first)) continue;
+      // Without a coupling its elements are not looked for, which is told elsewhere.
+      if (std::ranges::none_of(built_.scene.root.list("coupling"), [&](const Parameters& coupling) {
+            return coupling.has("on") && coupling.text("on") == interface_name;
+          }))
+        continue;
       long long facets = 0;
       for (const InterfacePart& part : parts) facets += part.domain->size();
       if (communicator.sum(facets) == 0)

@@ -66,26 +66,44 @@ std::size_t end_of_factor(const std::string& unit, std::size_t at) {
   return at;
 }
 
-}  // namespace
+/// Base units with their powers, in the order in which they first come.
+using Factors = std::vector<std::pair<std::string, double>>;
 
-std::string unit_in_space(const std::string& unit, int dimension) {
-  std::vector<std::pair<std::string, double>> factors;  // in the order in which they first come
+/// @param sign of the powers: -1 behind a stroke
+void add_factors(const std::string& unit, int sign, int dimension, Factors& factors) {
   for (std::size_t at = 0; at < unit.size();) {
     const bool divides = unit[at] == '/';
     at += divides || unit[at] == ' ' ? 1 : 0;
-    const std::size_t end = end_of_factor(unit, at), power_at = std::min(unit.find('^', at), end);
-    const std::string name = unit.substr(at, power_at - at);
-    double power = divides ? -1 : 1;
-    if (power_at < end)
-      power *= evaluate_formula(unit.substr(power_at + 1, end - power_at - 1),
-                                {{"d", static_cast<double>(dimension)}});
+    const std::size_t end = end_of_factor(unit, at);
+    const std::string factor = unit.substr(at, end - at);
     at = end;
-    if (name == "1") continue;
-    const auto known = std::ranges::find(factors, name, &std::pair<std::string, double>::first);
+    const int own_sign = divides ? -sign : sign;
+    if (factor.starts_with("(") && factor.ends_with(")")) {
+      add_factors(factor.substr(1, factor.size() - 2), own_sign, dimension, factors);
+      continue;
+    }
+    const std::size_t power_at = factor.find('^');
+    const std::string name = factor.substr(0, power_at);
+    if (name.empty() || name == "1") continue;
+    double power = own_sign;
+    if (power_at != std::string::npos)
+      power *= evaluate_formula(factor.substr(power_at + 1), {{"d", static_cast<double>(dimension)}});
+    const auto known = std::ranges::find(factors, name, &Factors::value_type::first);
     if (known == factors.end())
       factors.emplace_back(name, power);
     else
       known->second += power;
+  }
+}
+
+}  // namespace
+
+std::string unit_in_space(const std::string& unit, int dimension) {
+  Factors factors;
+  try {
+    add_factors(unit, 1, dimension, factors);
+  } catch (const Error&) {
+    return unit;  // written in a way of its own
   }
   std::string above, below;
   for (const auto& [name, power] : factors) {

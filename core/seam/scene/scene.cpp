@@ -58,17 +58,40 @@ YamlNode& child(YamlNode& node, const std::string& key, const Location& where, c
   return made;
 }
 
+/// What a replaced value is told by is the option, not a line in it.
+YamlNode without_lines(YamlNode node) {
+  node.line = node.column = 0;
+  for (auto* list : {&node.keys, &node.items})
+    for (YamlNode& child_node : *list) child_node = without_lines(std::move(child_node));
+  return node;
+}
+
+/// A parameter that the scene does not have would be made, and change nothing.
+void require_parameter(const YamlNode& root, const std::vector<std::string>& keys, const Location& where) {
+  if (keys.size() != 2 || keys[0] != "parameters") return;
+  const YamlNode* parameters = root.find("parameters");
+  if (parameters && parameters->find(keys[1])) return;
+  std::vector<std::string> known;
+  if (parameters)
+    for (const YamlNode& key : parameters->keys) known.push_back(key.scalar);
+  const std::string guess = nearest_name(keys[1], known);
+  throw Error(where, fmt::format("the scene has no parameter '{}'.{} It has: {}", keys[1],
+                                 guess.empty() ? "" : fmt::format(" Did you mean '{}'?", guess),
+                                 known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
 void apply(YamlNode& root, const std::string& path, const std::string& text) {
   const Location where{fmt::format("--set {}={}", path, text), 0, 0};
   const std::vector<std::string> keys = split(path);
   constexpr std::size_t deepest = 20;
   if (keys.size() > deepest) throw Error(where, "the key path is too long");
+  require_parameter(root, keys, where);
   YamlNode* node = &root;
   for (const std::string& key : keys) {
     if (key.empty()) throw Error(where, "expected key.key=value, with no empty key");
     node = &child(*node, key, where, path);
   }
-  *node = parse_yaml(text, where.file, {.bytes = 1 << 16, .nodes = 1000, .depth = 8});
+  *node = without_lines(parse_yaml(text, where.file, {.bytes = 1 << 16, .nodes = 1000, .depth = 8}));
 }
 
 /// Words of a list (or one word), before the schema has been checked; anything else is left to the

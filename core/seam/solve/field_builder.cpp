@@ -159,6 +159,13 @@ BoundTerm FieldBuilder::bind(std::shared_ptr<const Term> term, std::vector<Opera
                              int sides) const {
   BoundTerm bound{std::move(term), std::move(operands)};
   bound.where = entry_.where;
+  // A field's own terms speak of its own unknowns: a wrong name is no fault of the scene's.
+  for (const Operand& operand : bound.operands) try {
+      static_cast<void>(entry_.field->place(operand.unknown));
+    } catch (const Error& error) {
+      throw PluginFault(entry_.where, fmt::format("field '{}'{}: {}", entry_.name, plugin_of(*entry_.physics),
+                                                  error.what()));
+    }
   if (region_ >= 0 && entry_.field->regions() > 1)
     for (int side = 0; side < sides; ++side) bound.regions.push_back({side, region_});
   return bound;

@@ -9,6 +9,7 @@
 #include <set>
 #include <utility>
 
+#include "seam/assembly/together.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/interface/begins_steps.hpp"
@@ -20,6 +21,21 @@ namespace {
 
 /// Sets of unknowns that a node can have where bodies part the field; further parts share the last one.
 constexpr int most_sets = 4;
+
+/// @throws Error where it is no number, with the place in the scene: what is prescribed spoils all that
+/// follows
+double prescribed_value(const FieldEntry& entry, const PrescribedCondition& condition, const double* x,
+                        double time) {
+  const int dim = entry.mesh->dimension();
+  const double value = condition.value(x, dim, time);
+  if (std::isfinite(value)) return value;
+  throw Error(
+      condition.where,
+      fmt::format("on boundary '{}' of field '{}' the value given for '{}' is {} at ({:.6g}), t = {:.6g}: "
+                  "`{}`",
+                  condition.boundary, entry.name, condition.unknown, value, fmt::join(x, x + dim, ", "), time,
+                  condition.value.text()));
+}
 
 /// The mesh of a body without deformation: one point at the centre of its shape.
 std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& builder) {
@@ -268,12 +284,14 @@ void Problem::set_given(FieldEntry& entry, double time) {
 
 void Problem::set_prescribed(double time) {
   for (FieldEntry& entry : fields_) {
-    for (const PrescribedCondition& condition : entry.conditions) {
-      Block& block = entry.field->blocks()[condition.block];
-      for (const int node : condition.nodes)
-        block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
-            condition.value(block.space->position(node), entry.mesh->dimension(), time);
-    }
+    together(communicator_, [&] {
+      for (const PrescribedCondition& condition : entry.conditions) {
+        Block& block = entry.field->blocks()[condition.block];
+        for (const int node : condition.nodes)
+          block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
+              prescribed_value(entry, condition, block.space->position(node), time);
+      }
+    });
     set_given(entry, time);
     for (const LevelCondition& level : entry.levels)
       for (const int node : level.nodes) {
