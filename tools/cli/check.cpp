@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "seam/run/simulation.hpp"
+#include "seam/scene/resolved.hpp"
 #include "session.hpp"
 
 namespace seam::cli {
@@ -17,7 +18,18 @@ struct Options {
   std::string scene;
   std::vector<std::string> set;
   bool without_meshes = false;
+  bool resolved = false;
 };
+
+/// Every value, those that decide what is computed apart from the others.
+void print_resolved(const ResolvedScene& values) {
+  fmt::print("# decide what is computed, checksum {}\n", resolved_checksum(values));
+  for (const auto& [path, value] : values)
+    if (determines_numbers(path)) fmt::print("{}: {}\n", path, value);
+  fmt::print("# the others\n");
+  for (const auto& [path, value] : values)
+    if (!determines_numbers(path)) fmt::print("{}: {}\n", path, value);
+}
 
 void print_contents(Simulation& simulation) {
   for (const FieldEntry& entry : simulation.problem().fields()) {
@@ -38,6 +50,10 @@ int run(const Options& options, bool is_root) {
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(options.scene, parse_overrides(options.set), host, registry);
   Diagnostics warnings = scene.warnings;
+  if (options.resolved) {
+    if (is_root) print_resolved(resolve(scene, registry));
+    return ok;
+  }
   if (!options.without_meshes) {
     Simulation simulation(scene, registry, Communicator());
     simulation.prepare();
@@ -60,6 +76,10 @@ Command check_command(CLI::App& parent) {
   app->add_option("scene", options->scene, "YAML file")->required();
   app->add_option("--set", options->set, "replace a value: key.key=value; may be repeated")->take_all();
   app->add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
+  app->add_flag(
+      "--resolved", options->resolved,
+      "print every value with its key path, defaults filled in, and the checksum of those that decide "
+      "what is computed; nothing is built");
   return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 
