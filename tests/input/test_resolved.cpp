@@ -125,9 +125,21 @@ TEST_CASE("what does not decide what is computed leaves the checksum as it is") 
   CHECK(with(found, instead) == as_it_is);
 }
 
+TEST_CASE("a key decides what is computed unless it is known not to") {
+  for (const char* other : {"format", "title", "source", "tier", "output.every", "parameters.h", "plugins",
+                            "plugin_folders", "study.measure", "checks.0.is"})
+    CHECK_FALSE(determines_numbers(other));
+  for (const char* other :
+       {"time.end", "fields.water.source", "titles", "a_key_of_tomorrow", "meshes.output"})
+    CHECK(determines_numbers(other));
+  CHECK(says_what_is_measured("output.errors.velocity.exact"));
+  CHECK_FALSE(says_what_is_measured("output.formulas.drag"));
+}
+
 TEST_CASE("a parameter in a formula is its value") {
   CHECK(with("sin(t)*x", "E*sin(1e3*t)*x") == with("sin(t)*x", "100*sin(1000*t)*x"));
   CHECK(with("sin(t)*x", "h*sin(t)*x") != with("sin(t)*x", "h*sin(t)*x", {{"parameters.h", "1/8"}}));
+  CHECK(with("sin(t)*x", "${E}*sin(t)*x") == with("sin(t)*x", "100*sin(t)*x"));
   // Else 2-E would be 2--100, and x^E something else than x^(-100).
   CHECK(with("sin(t)*x", "x^E", {{"parameters.E", "-100"}, {"fields.left.material.young", "1"}}) ==
         with("sin(t)*x", "x^(-100)", {{"parameters.E", "-100"}, {"fields.left.material.young", "1"}}));

@@ -54,7 +54,8 @@ void read_series(const std::string& file, Results& results) {
       results.series[names[k]].push_back(number(words[k], where));
   }
   if (results.time.empty())
-    throw Error(Location{file, 2, 0}, fmt::format("found no row of numbers; {}", record_it_anew));
+    throw Error(Location{file, 2, 0},
+                fmt::format("found no row of numbers, expected one for each step; {}", record_it_anew));
 }
 
 /// Formulas are computed from what else there is, step by step as the run does.
@@ -86,9 +87,12 @@ RunRecord read_record(const std::filesystem::path& folder) {
   record.folder = folder;
   try {
     const nlohmann::json data = nlohmann::json::parse(in);
-    for (const std::string override : data.at("overrides")) {
-      const std::size_t equals = override.find('=');
-      record.overrides.emplace_back(override.substr(0, equals), override.substr(equals + 1));
+    for (const std::string replaced : data.at("overrides")) {
+      const std::size_t equals = replaced.find('=');
+      if (equals == std::string::npos)
+        throw Error(Location{file, 0, 0}, fmt::format("overrides: found '{}', expected key.key=value; {}",
+                                                      replaced, record_it_anew));
+      record.overrides.emplace_back(replaced.substr(0, equals), replaced.substr(equals + 1));
     }
     record.status = data.at("status");
     record.time = data.at("time");
