@@ -7,6 +7,7 @@
 # build     compile, warnings are errors
 # fast      unit, property and command line tests
 # scenes    every scene of configs/ against its own checks, but for those of the nightly tier
+# records   the records of the scenes of the nightly tier: still of these scenes, checks evaluated anew; a few seconds
 # nightly   the scenes of the nightly tier, then `metamorphic` and `endurance`: long runs, not part of `all`
 # metamorphic  all scenes of tests/metamorphic written anew, runs compared; `fast` has one scene of each family
 # endurance    a scene of each family under valgrind, 2,000 steps of a moving cut
@@ -21,7 +22,7 @@ set -uo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$seam_root" || exit 1
 
-all_stages=(build fast scenes install sanitize fuzz format tidy)
+all_stages=(build fast scenes records install sanitize fuzz format tidy)
 passed=0
 failed=0
 failed_stages=()
@@ -83,6 +84,16 @@ stage_scenes() {
   local scenes
   mapfile -t scenes < <(find "$seam_root/configs" -name '*.yaml' -exec grep -L '^tier: nightly' {} + | sort)
   verify_scenes "${scenes[@]}"
+}
+
+stage_records() {
+  local log=$seam_build/records.log
+  tools/check_records.py "$seam_build/bin/seam" >"$log" 2>&1
+  local code=$? sums
+  grep -vE '^[0-9]+ passed, [0-9]+ failed$' "$log"
+  sums=$(sed -nE 's/^([0-9]+) passed, ([0-9]+) failed$/\1 \2/p' "$log")
+  # shellcheck disable=SC2086  # two numbers
+  if [ -n "$sums" ]; then count $sums; else count_one $code; fi
 }
 
 stage_nightly() {

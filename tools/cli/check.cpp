@@ -8,6 +8,7 @@
 #include "check_report.hpp"
 #include "command.hpp"
 #include "seam/run/simulation.hpp"
+#include "seam/scene/resolved.hpp"
 #include "session.hpp"
 
 namespace seam::cli {
@@ -19,6 +20,7 @@ struct Options {
   std::vector<std::string> set;
   bool without_meshes = false;
   bool json = false;
+  bool resolved = false;
 };
 
 struct Outcome {
@@ -26,6 +28,23 @@ struct Outcome {
   std::string messages;  ///< a line each
   int code = ok;
 };
+
+/// Every value, those that decide what is computed apart from the others.
+std::string resolved_as_text(const ResolvedScene& values) {
+  std::string text = fmt::format("# decide what is computed, checksum {}\n", resolved_checksum(values)),
+              others = "# the others\n";
+  for (const auto& [path, value] : values)
+    (determines_numbers(path) ? text : others) += fmt::format("{}: {}\n", path, value);
+  return text + others;
+}
+
+int print_resolved(const Options& options, bool is_root) {
+  Registry registry = builtin_types();
+  PluginHost host = PluginHost::standard();
+  const Scene scene = load_scene(options.scene, parse_overrides(options.set), host, registry);
+  if (is_root) fmt::print("{}", resolved_as_text(resolve(scene, registry)));
+  return ok;
+}
 
 Outcome check(const Options& options) {
   Registry registry = builtin_types();
@@ -74,6 +93,7 @@ int print_json(const Options& options) {
 }
 
 int run(const Options& options, bool is_root) {
+  if (options.resolved) return print_resolved(options, is_root);
   if (options.json) {
     if (Communicator().size() > 1)
       throw Error("error: --json is for one process; start `seam check` without mpirun");
@@ -92,7 +112,13 @@ Command check_command(CLI::App& parent) {
   app->add_option("scene", options->scene, "YAML file")->required();
   app->add_option("--set", options->set, "replace a value: key.key=value; may be repeated")->take_all();
   app->add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
-  app->add_flag("--json", options->json, "what is found as JSON, for editors and continuous integration");
+  CLI::Option* json =
+      app->add_flag("--json", options->json, "what is found as JSON, for editors and continuous integration");
+  app->add_flag(
+         "--resolved", options->resolved,
+         "print every value with its key path, defaults filled in, and the checksum of those that decide "
+         "what is computed; nothing is built")
+      ->excludes(json);
   return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 

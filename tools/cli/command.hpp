@@ -31,6 +31,7 @@ Command schema_command(CLI::App& parent);
 Command run_command(CLI::App& parent);
 Command verify_command(CLI::App& parent);
 Command study_command(CLI::App& parent);
+Command judge_command(CLI::App& parent);
 
 /// `--restricted`, `--trust-geometry` and `--limit`, which hold for the whole process. They may stand before
 /// the command's name or after it.

@@ -45,7 +45,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SEAM_VERSION);
   const std::vector<Command> commands{plugins_command(app), plugin_test_command(app), check_command(app),
                                       explain_command(app), schema_command(app),      run_command(app),
-                                      verify_command(app),  study_command(app)};
+                                      verify_command(app),  study_command(app),       judge_command(app)};
   Trust trust;
   trust.add_options(app);
   for (const Command& command : commands) trust.add_options(*command.app);

@@ -21,6 +21,7 @@
 #include "seam/run/progress.hpp"
 #include "seam/run/result_names.hpp"
 #include "seam/run/scene_doubts.hpp"
+#include "seam/scene/resolved.hpp"
 
 namespace seam {
 
@@ -56,6 +57,7 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
     : scene_(scene), communicator_(communicator), problem_(communicator), stepper_(scene) {
   const Stopwatch watch;
   warnings_ = scene.warnings;
+  resolved_checksum_ = resolved_checksum(resolve(scene, registry));
   build_fields(registry);
   build_couplings(registry);
   const Parameters& solver = scene.root.object("solver");

@@ -53,6 +53,7 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["title"] = scene_.root.text("title");
   s["scene"] = scene_.path.filename().string();
   s["scene_hash"] = scene_hash(scene_);
+  s["resolved_checksum"] = resolved_checksum_;
   s["overrides"] = nlohmann::json::array();
   for (const auto& [path, value] : scene_.overrides) s["overrides"].push_back(path + "=" + value);
   s["status"] = status();

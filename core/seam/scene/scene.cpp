@@ -224,6 +224,7 @@ Scene parse_scene_text(const std::string& text, const std::filesystem::path& pat
       {}};
   create_functions(root, schema, context);
   scene.root = validate(root, schema, context, "");
+  scene.function_parts = std::move(context.function_parts);
   check_output_folder(scene, diagnostics);
   cross_check(scene, registry, host.loaded(), context.used_plugins, diagnostics);
   diagnostics.throw_if_errors();

@@ -28,6 +28,8 @@ struct Scene {
   std::string text;                          ///< the file's content
   Overrides overrides;                       ///< applied to it
   std::vector<std::string> plugins;          ///< names of those it loads
+  /// Where expressions use a part of a function: key path and what the scene says there ("exact.velocity").
+  std::map<std::string, std::string> function_parts;
   Diagnostics warnings;
 };
 

@@ -35,6 +35,13 @@ bool is_name(const std::string& s) {
          std::all_of(s.begin(), s.end(), [&](char c) { return letter(c) || other(c); });
 }
 
+/// "boundary[0].velocity" as `--set` takes it: "boundary.0.velocity".
+std::string key_path(std::string path) {
+  std::replace(path.begin(), path.end(), '[', '.');
+  std::erase(path, ']');
+  return path;
+}
+
 /// Validates the values of one scene. Functions that find an error report it and return nothing.
 class Validator {
  public:
@@ -306,7 +313,10 @@ class Validator {
     if (!found->second) return std::vector<Expression>{};
     std::vector<std::string> known;
     for (const Function::Part& part : found->second->parts()) {
-      if (part.name == wanted) return Expression::components(found->second, static_cast<int>(known.size()));
+      if (part.name == wanted) {
+        context_.function_parts[key_path(path)] = node.scalar;
+        return Expression::components(found->second, static_cast<int>(known.size()));
+      }
       known.push_back(part.name);
     }
     error(node, fmt::format("{}: function '{}' has no part '{}'.{} It has: {}", path, name, wanted,

@@ -34,6 +34,9 @@ struct ValidationContext {
   std::set<std::string> used_plugins;
   /// Named functions whose parts expressions may use; null for one that could not be created.
   std::map<std::string, std::shared_ptr<const Function>> functions = {};
+  /// Where expressions use them: key path ("fields.water.boundary.0.velocity") and text ("exact.velocity").
+  /// Filled by validate().
+  std::map<std::string, std::string> function_parts = {};
 };
 
 /// Checks a YAML object against a schema and turns it into values, defaults filled in. All errors go to
