@@ -1,0 +1,1 @@
+def judge_file(*a): raise NotImplementedError
