@@ -37,6 +37,8 @@ class Rules:
             return "no UTF-8"
         if re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", text):
             return "control characters"
+        # Blank lines and comments may begin with tabs, which this reader does not know.
+        text = re.sub(r"(?m)^[ \t]+(?=$|#)", "", text)
         try:
             why = self._forbidden(text)
             return why or self._by_schema(text)
@@ -63,8 +65,15 @@ class Rules:
 
     def _by_schema(self, text):
         reader = YAML(typ="safe", pure=True)
-        error = jsonschema.exceptions.best_match(self.validator.iter_errors(reader.load(text)))
+        error = jsonschema.exceptions.best_match(self.validator.iter_errors(without_open_keys(reader.load(text))))
         return "schema: " + ".".join(str(k) for k in error.absolute_path) + ": " + error.message[:150] if error else ""
+
+
+def without_open_keys(value):
+    """Keys without a value are as if they were not there."""
+    if isinstance(value, dict):
+        return {key: without_open_keys(child) for key, child in value.items() if child is not None}
+    return [without_open_keys(child) for child in value] if isinstance(value, list) else value
 
 
 def told(call):
