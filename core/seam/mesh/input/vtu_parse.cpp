@@ -51,7 +51,9 @@ class Parser {
       fail(1, "the file does not start with <VTKFile>, so it is not a VTK XML file");
     file_tag(tags[0]);
     if (tags.back().name == "AppendedData") appended_data(tags.back());
-    if (tags.back().name != "AppendedData" && tags.back().name != "/VTKFile")
+    // What is appended may hold anything, so that tags behind it are not read.
+    const std::size_t last = text_.find_last_not_of(" \t\r\n");
+    if (!std::string_view(text_).substr(0, last + 1).ends_with("</VTKFile>"))
       fail(tags.back().line, "the file ends without </VTKFile>; it seems to be truncated");
     std::string section;
     bool piece = false;

@@ -25,6 +25,7 @@ class Scanner {
       XmlTag tag = read_tag(closed);
       const bool appended = tag.name == "AppendedData" && !closed;
       tag.text = text_.substr(at_, appended ? text_.npos : text_.find('<', at_) - at_);
+      if (!closed) nest(tag);
       tags.push_back(std::move(tag));
       if (closed) tags.push_back({"/" + tags.back().name, {}, {}, line_});
       if (appended) return tags;
@@ -47,6 +48,20 @@ class Scanner {
     if (end == text_.npos) fail("the XML ends in a comment or a declaration; the file seems to be truncated");
     advance(end + close.size());
     return true;
+  }
+
+  /// What is opened last is closed first: else a line is missing, or there twice.
+  void nest(const XmlTag& tag) {
+    if (!tag.name.starts_with('/')) {
+      open_.push_back(tag.name);
+      return;
+    }
+    if (open_.empty() || "/" + open_.back() != tag.name)
+      throw Error(Location{name_, tag.line, 0},
+                  "found <" + tag.name + ">; expected " +
+                      (open_.empty() ? "nothing more" : "</" + open_.back() + ">") +
+                      ": the file is broken; write it anew");
+    open_.pop_back();
   }
 
   char peek() {
@@ -94,6 +109,7 @@ class Scanner {
   const std::string& name_;
   std::size_t at_ = 0;
   int line_ = 1;
+  std::vector<std::string> open_;
 };
 
 }  // namespace
