@@ -134,10 +134,11 @@ RunState read_header(const std::filesystem::path& file, const nlohmann::json& he
     throw damaged_file(file);
   }
   if (!std::isfinite(state.time) || !std::isfinite(state.step) || !(state.step > 0) || state.step_number < 0)
-    throw Error(fmt::format(
-        "the restart point '{}' holds the time {}, a step of {} s and the number {}: expected a time, "
-        "a step above 0 and a number from 0 on; resume from an older one",
-        file.string(), state.time, state.step, state.step_number));
+    throw Error(
+        fmt::format("the restart point '{}' holds the time {}, a step of {} s and the number {}: expected a "
+                    "step above 0, "
+                    "a finite time and a number from 0 on; resume from an older one",
+                    file.string(), state.time, state.step, state.step_number));
   return state;
 }
 
