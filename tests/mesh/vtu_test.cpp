@@ -157,7 +157,7 @@ TEST_CASE("A VTU file whose tags do not fit together is refused") {
   };
   CHECK_THAT(with("</Cells>", "</Cells></Cells>"), Contains("found </Cells>; expected </Piece>"));
   CHECK_THAT(with("</Piece>", ""), Contains("found </UnstructuredGrid>; expected </Piece>"));
-  CHECK_THAT(with("<Cells>", ""), Contains("m.vtu:12: error: found </Cells>; expected </Piece>"));
+  CHECK_THAT(with("<Cells>", ""), Contains("m.vtu:11: error: found </Cells>; expected </Piece>"));
   CHECK_THAT(with("<Points>", "<Points/>"), Contains("found </Points>; expected </Piece>"));
   CHECK_THAT(with("</VTKFile>", "</VTKFile></VTKFile>"), Contains("expected nothing more"));
 }

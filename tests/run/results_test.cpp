@@ -140,7 +140,7 @@ TEST_CASE("a known solution that does not fit its field is refused where it stan
     return result.output;
   };
   CHECK_THAT(told("unknown: displacment, exact: [0, 0]"),
-             Contains("scene.yaml:16:31: error: field 'block' has no unknown 'displacment'; did you mean "
+             Contains("scene.yaml:16:32: error: field 'block' has no unknown 'displacment'; did you mean "
                       "'displacement'?"));
   CHECK_THAT(told("unknown: displacement, exact: [0]"),
              Contains("scene.yaml:16:") && Contains("has 1 entries here; expected 2, one a component"));

@@ -205,5 +205,5 @@ TEST_CASE("a series that was damaged is not taken again") {
   }
   CHECK_THAT(again("timer" + whole.substr(4)).output, Catch::Contains("holds no series of an earlier run"));
   CHECK_THAT(again(whole.substr(0, last) + "2,3\n").output,
-             Catch::Contains("found 2 values, expected 6 and the end of the line"));
+             Catch::Contains("found 2 values, expected 7 and the end of the line"));
 }
