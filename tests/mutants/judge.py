@@ -117,8 +117,8 @@ def run(call, checked, results):
         return bad
     if checked.code == 0 and call.code in (BROKEN_INPUT, PLUGIN_FAILED):
         return "the check accepted what the run refuses"
-    # What nothing acts on stays where it is, also where nothing holds it: only the check looks for that.
-    unheld = "is not held" in checked.error and call.code == 0
+    # What nothing acts on stays where it is, also where nothing holds it, and the run fails where something does: only the check looks before.
+    unheld = "is not held" in checked.error
     if checked.code in (BROKEN_INPUT, PLUGIN_FAILED) and call.code not in (BROKEN_INPUT, PLUGIN_FAILED) and not unheld:
         return "the run begins what the check refuses"
     if call.code == FAILED and "error:" not in call.error and "FAIL" not in call.out and "fail" not in call.out:

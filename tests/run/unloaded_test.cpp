@@ -85,12 +85,13 @@ output: {fields: false}
 
 TEST_CASE("what is no number at the start is named before rates are solved for") {
   const Folder folder;
-  const auto outcome = run(folder, block(R"yaml(
+  const auto outcome =
+      run(folder, block(R"yaml(
     density: 1e308
     body_force: [0, -100]
     boundary: [{on: x_min, displacement: [0, 0]}]
 )yaml",
-                                         "time: {end: 1, step: {initial: 0.25}}\noutput: {fields: false}\n"));
+                        "time: {theta: 0.5, end: 1, step: {initial: 0.25}}\noutput: {fields: false}\n"));
   CAPTURE(outcome.output);
   CHECK(outcome.code != 0);
   CHECK_THAT(outcome.output, Catch::Contains("error: something is not finite at the start:") &&
