@@ -160,12 +160,18 @@ TEST_CASE("A VTU file whose tags do not fit together is refused") {
   CHECK_THAT(with("<Cells>", ""), Contains("m.vtu:11: error: found </Cells>; expected </Piece>"));
   CHECK_THAT(with("<Points>", "<Points/>"), Contains("found </Points>; expected </Piece>"));
   CHECK_THAT(with("</VTKFile>", "</VTKFile></VTKFile>"), Contains("expected nothing more"));
+  CHECK_THAT(with("Name=\"offsets\"", "Name=\"offsets\" Name=\"types\""),
+             Contains("m.vtu:9: error: this XML tag has the attribute 'Name' twice"));
 }
 
 TEST_CASE("A VTU file truncated or damaged anywhere never does harm") {
   const TemporaryFolder folder;
   write_vtu(folder.path("a.vtu"), piece_of(box(CellType::quadrilateral, 1)));
   const std::string whole = contents(folder.path("a.vtu"));
+  CHECK_THAT(error(replaced(whole, "</AppendedData>", "")),
+             Contains("ends without </AppendedData></VTKFile>"));
+  CHECK_THAT(error(replaced(whole, "</UnstructuredGrid>", "")),
+             Contains("within <UnstructuredGrid>; expected them within <VTKFile>"));
   for (std::size_t length = 0; length < whole.size(); length += 7) {
     INFO(length);
     CHECK_FALSE(error(whole.substr(0, length)).empty());

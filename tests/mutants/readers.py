@@ -77,6 +77,7 @@ def _elements(words, version, nodes):
 
 def vtu(data):
     """A mesh of VTK's XML format."""
+    data = data.lstrip()  # white space before the declaration does no harm
     try:
         cut = re.search(rb'(?s)<AppendedData encoding="raw">\s*_(.*)</AppendedData>', data)
         appended = cut.group(1) if cut else None
@@ -136,7 +137,7 @@ class _Arrays:
 def series(data):
     """Times of a series.csv. @returns (why it has to be refused, the times)"""
     try:
-        rows = [line.split(",") for line in data.decode().split("\n")]
+        rows = [line.split(",") for line in data.decode("latin-1").split("\n")]  # names of columns may be anything
         if rows[-1] == [""]:
             rows.pop()
         times = [float(row[0]) for row in rows[1:]]

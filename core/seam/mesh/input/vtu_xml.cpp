@@ -26,6 +26,10 @@ class Scanner {
       const bool appended = tag.name == "AppendedData" && !closed;
       tag.text = text_.substr(at_, appended ? text_.npos : text_.find('<', at_) - at_);
       if (!closed) nest(tag);
+      if (appended && (open_.size() != 2 || open_[0] != "VTKFile"))
+        fail("appended data begin within " +
+             (open_.size() < 2 ? "nothing" : "<" + open_[open_.size() - 2] + ">") +
+             "; expected them within <VTKFile>, behind </UnstructuredGrid>");
       tags.push_back(std::move(tag));
       if (closed) tags.push_back({"/" + tags.back().name, {}, {}, line_});
       if (appended) return tags;
@@ -98,7 +102,8 @@ class Scanner {
       if (quote != '"' && quote != '\'') fail("the value of attribute '" + key + "' is not in quotes");
       const std::size_t end = text_.find(quote, at_ + 1);
       if (end == text_.npos) fail("the XML ends within an attribute; the file seems to be truncated");
-      tag.attributes[key] = std::string(text_.substr(at_ + 1, end - at_ - 1));
+      if (!tag.attributes.emplace(key, text_.substr(at_ + 1, end - at_ - 1)).second)
+        fail("this XML tag has the attribute '" + key + "' twice");
       advance(end + 1);
     }
     ++at_;
