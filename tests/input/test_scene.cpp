@@ -167,6 +167,9 @@ TEST_CASE("files that are no scenes are refused") {
   CHECK_THROWS_WITH(parse(std::string("a: \0", 4)), Contains("byte 0x00"));
   CHECK_THROWS_WITH(parse(std::string((1 << 20) + 1, ' ')), Contains("at most"));
   CHECK_THROWS_WITH(parse(std::string(5000, '[')), Contains("nested"));
+  CHECK_THROWS_WITH(parse("a: b\rc"),
+                    Contains("1:5: error: found a carriage return (byte 0x0d) without a line feed"));
+  CHECK_THROWS_WITH(parse("a: b\r"), Contains("a carriage return"));
   CHECK_THROWS_WITH(parse("a: &b [1]\nc: *b"), Contains("anchor"));
   CHECK_THROWS_WITH(parse("a: !!binary x"), Contains("tag"));
   CHECK_THROWS_WITH(parse("a: 1\n---\nb: 2"), Contains("second YAML document"));

@@ -160,6 +160,10 @@ TEST_CASE("A VTU file whose tags do not fit together is refused") {
   CHECK_THAT(with("<Cells>", ""), Contains("m.vtu:11: error: found </Cells>; expected </Piece>"));
   CHECK_THAT(with("<Points>", "<Points/>"), Contains("found </Points>; expected </Piece>"));
   CHECK_THAT(with("</VTKFile>", "</VTKFile></VTKFile>"), Contains("expected nothing more"));
+  CHECK_THAT(with("<VTKFile ", "<?xml version=\"1.0\"?>\n<VTKFile "),
+             Contains("the XML declaration stands within the file"));
+  CHECK_THAT(with("\"0.1\"", "\"0.\x1b\""), Contains("attribute 'version' holds a control character"));
+  CHECK_THAT(with("\"0.1\"", "\"0&1\""), Contains("attribute 'version' holds '&'"));
   CHECK_THAT(with("Name=\"offsets\"", "Name=\"offsets\" Name=\"types\""),
              Contains("m.vtu:9: error: this XML tag has the attribute 'Name' twice"));
 }

@@ -248,6 +248,12 @@ void check_text(const std::string& text, const std::string& name, const YamlLimi
                             "in files of their own",
                             text.size(), limits.bytes));
   }
+  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1))
+    if (text.substr(at, 2) != "\r\n")
+      throw Error(place_of(text, at, name),
+                  "found a carriage return (byte 0x0d) without a line feed behind it; expected lines that "
+                  "end as on Unix "
+                  "or Windows; save the file so, or remove it");
   const std::size_t bad = first_bad_byte(text);
   if (bad == std::string::npos) return;
   throw Error(place_of(text, bad, name),

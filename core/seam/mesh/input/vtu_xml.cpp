@@ -9,6 +9,18 @@ namespace seam {
 
 namespace {
 
+/// The first character that the value of an attribute may not have, or npos. An entity begins with '&'.
+std::size_t first_forbidden(std::string_view value) {
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto c = static_cast<unsigned char>(value[i]);
+    if ((c < 0x20 && c != '\t' && c != '\r' && c != '\n') || c == '<') return i;
+    if (c != '&') continue;
+    const std::size_t end = value.find(';', i);
+    if (end == value.npos || value.substr(i, end - i).find(' ') != value.npos) return i;
+  }
+  return value.npos;
+}
+
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 class Scanner {
@@ -20,6 +32,9 @@ class Scanner {
     while (true) {
       advance(std::min(text_.find('<', at_), text_.size()));
       if (at_ == text_.size()) return tags;
+      if (text_.substr(at_).starts_with("<?xml") && (declared_ || !tags.empty()))
+        fail("the XML declaration stands within the file; expected it in front, and once");
+      declared_ = declared_ || text_.substr(at_).starts_with("<?xml");
       if (skip("<!--", "-->") || skip("<?", "?>")) continue;
       bool closed = false;
       XmlTag tag = read_tag(closed);
@@ -102,7 +117,13 @@ class Scanner {
       if (quote != '"' && quote != '\'') fail("the value of attribute '" + key + "' is not in quotes");
       const std::size_t end = text_.find(quote, at_ + 1);
       if (end == text_.npos) fail("the XML ends within an attribute; the file seems to be truncated");
-      if (!tag.attributes.emplace(key, text_.substr(at_ + 1, end - at_ - 1)).second)
+      const std::string_view value = text_.substr(at_ + 1, end - at_ - 1);
+      if (const std::size_t bad = first_forbidden(value); bad != value.npos)
+        fail(std::string("the value of attribute '") + key + "' holds " +
+             (value[bad] == '<' || value[bad] == '&' ? std::string("'") + value[bad] + "'"
+                                                     : "a control character") +
+             ", which XML does not allow there; the file is broken");
+      if (!tag.attributes.emplace(key, value).second)
         fail("this XML tag has the attribute '" + key + "' twice");
       advance(end + 1);
     }
@@ -115,6 +136,7 @@ class Scanner {
   std::size_t at_ = 0;
   int line_ = 1;
   std::vector<std::string> open_;
+  bool declared_ = false;
 };
 
 }  // namespace
