@@ -21,7 +21,8 @@ struct NeoHookean {
     using std::expm1, std::log;
     const T log_j = log(i[2]);
     // expm1 keeps its digits where beta is small.
-    const T volume = beta == 0 ? -2 * c * log_j : (c / beta) * expm1(-2 * beta * log_j);
+    // Below 1e-20 the limit is exact, and c/beta might be infinite.
+    const T volume = beta < 1e-20 ? -2 * c * log_j : (c / beta) * expm1(-2 * beta * log_j);
     return c * (i[0] - 3.0) + volume;
   }
 };

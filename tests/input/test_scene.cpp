@@ -8,6 +8,7 @@
 #include "seam/scene/explain.hpp"
 #include "seam/scene/json_schema.hpp"
 #include "seam/scene/scene.hpp"
+#include "seam/scene/yaml_tree.hpp"
 #include "test_types.hpp"
 
 using namespace seam;
@@ -166,11 +167,29 @@ TEST_CASE("files that are no scenes are refused") {
   CHECK_THROWS_WITH(parse(std::string("a: \0", 4)), Contains("byte 0x00"));
   CHECK_THROWS_WITH(parse(std::string((1 << 20) + 1, ' ')), Contains("at most"));
   CHECK_THROWS_WITH(parse(std::string(5000, '[')), Contains("nested"));
+  CHECK_THROWS_WITH(parse("a: b\rc"),
+                    Contains("1:5: error: found a carriage return (byte 0x0d) without a line feed"));
+  CHECK_THROWS_WITH(parse("a: b\r"), Contains("a carriage return"));
   CHECK_THROWS_WITH(parse("a: &b [1]\nc: *b"), Contains("anchor"));
   CHECK_THROWS_WITH(parse("a: !!binary x"), Contains("tag"));
   CHECK_THROWS_WITH(parse("a: 1\n---\nb: 2"), Contains("second YAML document"));
   CHECK_THROWS_WITH(parse("[a: b}"), Contains("not valid YAML"));
   CHECK_THROWS_WITH(parse("{[1]: 2}"), Contains("as a key"));
+}
+
+TEST_CASE("A word without a colon is no key: a file that was cut short may end with one") {
+  for (const std::string end :
+       {"title", "title ", "title\t", "title  # which", "title\n", "title\r\n", "a:\n  b: 1\n  title"})
+    CHECK_THROWS_WITH(parse_yaml("a1: 1\n" + end, "s.yaml"),
+                      Contains("error: found the word 'title' where its block ends; expected 'title:'"));
+  CHECK_THROWS_WITH(parse_yaml("- a: 1\n  title", "s.yaml"),
+                    Contains("s.yaml:2:3: error: found the word 'title'"));
+  for (const std::string whole :
+       {"title:", "title :", "title:\nb: 1", "a: {title}", "a: {title, b}", "? title",
+        "\"title\":", "a: [title]", "- title", "title: # which", "title:\r\nb:\r\n"}) {
+    INFO(whole);
+    CHECK_NOTHROW(parse_yaml(whole, "s.yaml"));
+  }
 }
 
 TEST_CASE("large files, broken or not, take seconds at most") {

@@ -151,15 +151,34 @@ TEST_CASE("A broken VTU file is refused with its reason") {
   CHECK_THAT(with("98 99 0", "98 99"), Contains("array 'region' has 1 strings; expected 2"));
 }
 
+TEST_CASE("A VTU file whose tags do not fit together is refused") {
+  const auto with = [](const std::string& from, const std::string& to) {
+    return error(replaced(ascii, from, to));
+  };
+  CHECK_THAT(with("</Cells>", "</Cells></Cells>"), Contains("found </Cells>; expected </Piece>"));
+  CHECK_THAT(with("</Piece>", ""), Contains("found </UnstructuredGrid>; expected </Piece>"));
+  CHECK_THAT(with("<Cells>", ""), Contains("m.vtu:11: error: found </Cells>; expected </Piece>"));
+  CHECK_THAT(with("<Points>", "<Points/>"), Contains("found </Points>; expected </Piece>"));
+  CHECK_THAT(with("</VTKFile>", "</VTKFile></VTKFile>"), Contains("expected nothing more"));
+  CHECK_THAT(with("<VTKFile ", "<?xml version=\"1.0\"?>\n<VTKFile "),
+             Contains("the XML declaration stands within the file"));
+  CHECK_THAT(with("\"0.1\"", "\"0.\x1b\""), Contains("attribute 'version' holds a control character"));
+  CHECK_THAT(with("\"0.1\"", "\"0&1\""), Contains("attribute 'version' holds '&'"));
+  CHECK_THAT(with("Name=\"offsets\"", "Name=\"offsets\" Name=\"types\""),
+             Contains("m.vtu:9: error: this XML tag has the attribute 'Name' twice"));
+}
+
 TEST_CASE("A VTU file truncated or damaged anywhere never does harm") {
   const TemporaryFolder folder;
   write_vtu(folder.path("a.vtu"), piece_of(box(CellType::quadrilateral, 1)));
   const std::string whole = contents(folder.path("a.vtu"));
-  const std::size_t data = whole.find("<AppendedData");
+  CHECK_THAT(error(replaced(whole, "</AppendedData>", "")),
+             Contains("ends without </AppendedData></VTKFile>"));
+  CHECK_THAT(error(replaced(whole, "</UnstructuredGrid>", "")),
+             Contains("within <UnstructuredGrid>; expected them within <VTKFile>"));
   for (std::size_t length = 0; length < whole.size(); length += 7) {
-    const std::string message = error(whole.substr(0, length));
-    // Behind the last array there is nothing that could be missed.
-    if (length < data) CHECK_FALSE(message.empty());
+    INFO(length);
+    CHECK_FALSE(error(whole.substr(0, length)).empty());
   }
   for (std::size_t at = 0; at < whole.size(); ++at)
     for (const char c : {'\0', '\xff'}) {

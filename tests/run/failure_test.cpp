@@ -272,6 +272,9 @@ TEST_CASE("whole numbers that no int holds are refused") {
   }
   const std::string segments =
       "{segments: {from: [0, 0], x: [{to: 1, cells: 4294967300}], y: [{to: 1, cells: 2}]}}";
+  const std::string none = "{segments: {from: [0, 0], x: [], y: [{to: 1, cells: 2}]}}";
+  CHECK_THAT(seam("check " + beam + " --set 'meshes.beam.grid=" + none + "'").output,
+             Contains("error: no stretch along x; expected at least one"));
   const Result result = seam("check " + beam + " --set 'meshes.beam.grid=" + segments + "'");
   CHECK(result.code == 2);
   CHECK_THAT(result.output, Contains("expected a whole number of no more than 2147483647"));

@@ -209,21 +209,58 @@ TEST_CASE(
   CHECK(folder.read("r/series.csv") == series);
 }
 
-TEST_CASE("a restart point whose step is not above 0 is refused") {
+TEST_CASE("a restart point is refused whose checksum is right and whose header says what cannot be") {
   const Folder folder;
   REQUIRE(run(folder, "r", "--stop-after 5").code == 0);
   const fs::path point = folder.path / "r/restart/00000005.restart";
-  std::string bytes = folder.read("r/restart/00000005.restart");
-  // The header is JSON text; what is changed in it keeps its length.
-  const std::size_t at = bytes.find("\"step\":") + 7, end = bytes.find_first_of(",}", at);
-  REQUIRE(end != std::string::npos);
-  bytes.replace(at, end - at, std::string(end - at - 1, ' ') + "0");
-  std::uint64_t sum = 14695981039346656037ull;
-  for (std::size_t k = 0; k + 8 < bytes.size(); ++k)
-    sum = (sum ^ static_cast<unsigned char>(bytes[k])) * 1099511628211ull;
-  std::copy_n(reinterpret_cast<const char*>(&sum), 8, bytes.end() - 8);
-  std::ofstream(point, std::ios::binary) << bytes;
-  check_refused(run(folder, "r", "--resume"), "expected a step above 0");
+  const std::string whole = folder.read("r/restart/00000005.restart");
+  // A mark, the length of a JSON text, that text, numbers, a checksum.
+  const auto with = [&](const std::string& key, const nlohmann::json& value) {
+    std::uint64_t length = 0;
+    std::copy_n(whole.begin() + 8, 8, reinterpret_cast<char*>(&length));
+    nlohmann::json header = nlohmann::json::parse(whole.substr(16, length));
+    REQUIRE(header.contains(key));
+    header[key] = value;
+    std::string text = header.dump();
+    text.resize((text.size() + 7) / 8 * 8, ' ');
+    std::string bytes = whole.substr(0, 16) + text + whole.substr(16 + length);
+    length = text.size();
+    std::copy_n(reinterpret_cast<const char*>(&length), 8, bytes.begin() + 8);
+    std::uint64_t sum = 14695981039346656037ull;
+    for (std::size_t k = 0; k + 8 < bytes.size(); ++k)
+      sum = (sum ^ static_cast<unsigned char>(bytes[k])) * 1099511628211ull;
+    std::copy_n(reinterpret_cast<const char*>(&sum), 8, bytes.end() - 8);
+    std::ofstream(point, std::ios::binary) << bytes;
+    return run(folder, "r", "--resume");
+  };
+  const std::string damaged = "00000005.restart' is damaged or incomplete";
+  for (const double step : {0.0, -1.0}) check_refused(with("step", step), "expected a step above 0");
+  check_refused(with("step_number", -1), "a number from 0 on");
+  for (const char* key :
+       {"time", "step", "step_number", "rejected_steps", "times", "largest", "iterations", "series"}) {
+    check_refused(with(key, "a"), damaged);
+    check_refused(with(key, nullptr), damaged);
+  }
+  for (const int times : {5, -1, 7, 1000000}) check_refused(with("times", times), damaged);
+  check_refused(with("series", {{{"name", "a"}, {"size", 1}}}), damaged);
+  check_refused(with("blocks", 1), "was written by another scene");
+}
+
+TEST_CASE("a record of a run that is JSON but none of a run is refused") {
+  const Folder folder;
+  REQUIRE(run(folder, "r", "--stop-after 5").code == 0);
+  const nlohmann::json whole = json(folder, "r/run.json");
+  for (const std::string key : {"run", "values", "resumed", "changes"}) {
+    nlohmann::json record = whole;
+    record[key] = 3;
+    static_cast<void>(folder.file("r/run.json", record.dump()));
+    check_refused(run(folder, "r", "--resume"), "'run.json' is damaged");
+  }
+  // What a step says of itself may be damaged: it is left out.
+  static_cast<void>(folder.file("r/run.json", whole.dump()));
+  static_cast<void>(
+      folder.file("r/events.jsonl", "{\"event\":3,\"number\":1}\n{\"event\":\"step\",\"number\":\"a\"}\n"));
+  CHECK(run(folder, "r", "--resume").code == 0);
 }
 
 TEST_CASE("a folder in which a run is at work is refused; one that was killed holds nothing up") {

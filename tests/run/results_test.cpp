@@ -129,3 +129,21 @@ output: {fields: false, probes: {f: {field: block, on: y_max, quantity: reaction
              Contains("a reaction is what holds the first unknown of a field, here 'displacement'"));
   CHECK_THAT(result.output, Contains("only 'velocity' is prescribed"));
 }
+
+TEST_CASE("a known solution that does not fit its field is refused where it stands") {
+  const Folder folder;
+  const auto told = [&](const std::string& known) {
+    const Result result =
+        seam("check " +
+             folder.file("scene.yaml", drawn("output:\n  errors:\n    e: {field: block, " + known + "}\n")));
+    CHECK(result.code == 2);
+    return result.output;
+  };
+  CHECK_THAT(told("unknown: displacment, exact: [0, 0]"),
+             Contains("scene.yaml:16:32: error: field 'block' has no unknown 'displacment'; did you mean "
+                      "'displacement'?"));
+  CHECK_THAT(told("unknown: displacement, exact: [0]"),
+             Contains("scene.yaml:16:") && Contains("has 1 entries here; expected 2, one a component"));
+  CHECK_THAT(told("unknown: displacement, exact: [0, 0], gradient: [0, 0]"),
+             Contains("scene.yaml:16:") && Contains("has 2 entries here; expected 4, derivatives"));
+}

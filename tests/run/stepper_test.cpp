@@ -199,3 +199,25 @@ TEST_CASE("a static problem that does not depend on time is not tried again in v
   CHECK(result.code != 0);
   CHECK_THAT(result.output, Catch::Contains("from t = 0 fails down to a length of 1:"));
 }
+
+TEST_CASE("a series that was damaged is not taken again") {
+  const Folder folder;
+  const std::string file = folder.file("s.yaml", scene("t", "{end: 1, step: {initial: 0.25}}"));
+  REQUIRE(run(folder, file, "r").code == 0);
+  const std::string whole = folder.read("r/series.csv");
+  const auto again = [&](const std::string& series) {
+    return seam("check " + file + " --set time.step.replay=" + folder.file("old.csv", series));
+  };
+  CHECK(again(whole).code == 0);
+  // Cut short within the last line: within its first number, within another one, before the end of the line.
+  const std::size_t last = whole.rfind('\n', whole.size() - 2) + 1;
+  for (const std::size_t length : {last + 1, last + 8, whole.size() - 1}) {
+    const Result result = again(whole.substr(0, length));
+    CAPTURE(result.output);
+    CHECK(result.code == 2);
+    CHECK_THAT(result.output, Catch::Contains("line 6 of ") && Catch::Contains("is not whole"));
+  }
+  CHECK_THAT(again("timer" + whole.substr(4)).output, Catch::Contains("holds no series of an earlier run"));
+  CHECK_THAT(again(whole.substr(0, last) + "2,3\n").output,
+             Catch::Contains("found 2 values, expected 7 and the end of the line"));
+}

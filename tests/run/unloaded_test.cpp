@@ -82,3 +82,30 @@ output: {fields: false}
   CHECK_THAT(outcome.output, Catch::Contains("no finite number") && Catch::Contains("block.displacement") &&
                                  Catch::Contains("at (1,"));
 }
+
+TEST_CASE("what is no number at the start is named before rates are solved for") {
+  const Folder folder;
+  const auto outcome =
+      run(folder, block(R"yaml(
+    density: 1e308
+    body_force: [0, -100]
+    boundary: [{on: x_min, displacement: [0, 0]}]
+)yaml",
+                        "time: {theta: 0.5, end: 1, step: {initial: 0.25}}\noutput: {fields: false}\n"));
+  CAPTURE(outcome.output);
+  CHECK(outcome.code != 0);
+  CHECK_THAT(outcome.output, Catch::Contains("error: something is not finite at the start:") &&
+                                 Catch::Contains("block.displacement") && Catch::Contains("in cell 0 at"));
+}
+
+TEST_CASE("a Poisson's ratio that is next to nothing is as good as none") {
+  const Folder folder;
+  std::string text =
+      block("    boundary: [{on: x_min, displacement: [0, 0]}, {on: x_max, traction: [1, 0]}]\n",
+            "output: {fields: false}\n");
+  text.replace(text.find("poisson: 0.2"), 12,
+               "poisson: " + std::string(GENERATE("4.9e-324", "1e-300", "1e-19")));
+  const auto outcome = run(folder, text);
+  CAPTURE(outcome.output);
+  CHECK(outcome.code == 0);
+}

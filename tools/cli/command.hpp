@@ -55,6 +55,8 @@ struct Failure {
   ExitCode code;
   std::string message;
 };
+/// A message that says that it is an error, as those with a place in a file do by themselves.
+std::string as_error(const std::string& message);
 /// The exception of the catch block this is called in.
 Failure current_failure();
 

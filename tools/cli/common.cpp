@@ -13,6 +13,11 @@
 
 namespace seam::cli {
 
+std::string as_error(const std::string& message) {
+  const bool says = message.starts_with("error: ") || message.find(": error: ") != std::string::npos;
+  return says ? message : "error: " + message;
+}
+
 Failure current_failure() {
   try {
     throw;

@@ -27,7 +27,7 @@ int run_chosen(const std::vector<Command>& commands, const Trust& trust) {
     }
   } catch (...) {
     const Failure failure = current_failure();
-    fmt::print(stderr, "{}\n", failure.message);
+    fmt::print(stderr, "{}\n", as_error(failure.message));
     return failure.code;
   }
   return ok;

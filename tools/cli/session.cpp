@@ -78,7 +78,7 @@ std::string agree_on_exception() {
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
   if (size == 1) return failure.message;
   if (all_ranks_come()) return distinct_texts(Communicator(failures), failure.message);
-  fmt::print(stderr, "{}\n(on rank {} of {} only: all are stopped)\n", failure.message, rank, size);
+  fmt::print(stderr, "{}\n(on rank {} of {} only: all are stopped)\n", as_error(failure.message), rank, size);
   std::fflush(nullptr);
   MPI_Abort(MPI_COMM_WORLD, failure.code);
   std::abort();  // not reached
@@ -95,7 +95,7 @@ int run_on_all_ranks(const std::function<int(bool)>& action) {
   } catch (...) {
     code = current_failure().code;
     const std::string message = agree_on_exception();
-    if (is_root) fmt::print(stderr, "{}\n", message);
+    if (is_root) fmt::print(stderr, "{}\n", as_error(message));
   }
   MPI_Comm_free(&failures);
   MPI_Finalize();

@@ -112,7 +112,8 @@ nlohmann::json read_summary(const fs::path& folder) { return read_json(folder / 
 /// The mark of the run that wrote a folder, "" when there is none.
 std::string run_of(const fs::path& folder) {
   const nlohmann::json record = read_json(folder / "run.json");
-  return record.is_object() ? record.value("run", "") : "";
+  const auto found = record.is_object() ? record.find("run") : record.end();
+  return found != record.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 /// Runs a case in a process of its own, so that its seconds and its peak memory are its own.

@@ -63,9 +63,25 @@ std::string word(const nlohmann::json& object, const char* key) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : "unknown";
 }
 
+/// The process that a lock names, 0 when it names none.
+long process_of(const nlohmann::json& holder) {
+  const auto found = holder.find("process");
+  return found != holder.end() && found->is_number_integer() ? found->get<long>() : 0;
+}
+
 std::string place_of(const Scene& scene) {
   std::error_code ignored;
   return fs::weakly_canonical(fs::absolute(scene.path, ignored), ignored).string();
+}
+
+/// Whether run.json holds what a run goes on from: texts as values, and lists of what was resumed and
+/// changed.
+bool is_whole(const nlohmann::json& record) {
+  const auto is_list = [&](const char* key) { return !record.contains(key) || record.at(key).is_array(); };
+  const nlohmann::json values = record.value("values", nlohmann::json::object());
+  return record.contains("run") && record.at("run").is_string() && is_list("resumed") && is_list("changes") &&
+         values.is_object() &&
+         std::ranges::all_of(values, [](const auto& value) { return value.is_string(); });
 }
 
 /// The same file, or one of the same name and title elsewhere: folders and sources are moved together.
@@ -156,7 +172,7 @@ class ResultsFolder::Lock {
             fmt::format("another run is at work in this folder (process {} on {}, of '{}', since {}). "
                         "Wait for it, or choose another --folder; if that process does not exist any "
                         "more, delete '{}'",
-                        holder.value("process", 0L), word(holder, "host"), word(holder, "scene"),
+                        process_of(holder), word(holder, "host"), word(holder, "scene"),
                         word(holder, "started"), file_.string()));
       }
     }
@@ -173,7 +189,7 @@ class ResultsFolder::Lock {
     const nlohmann::json holder = read_object(file_);
     if (holder.is_null()) return false;
     if (word(holder, "host") != host_name()) return true;
-    return ::kill(holder.value("process", 0), 0) == 0 || errno == EPERM;
+    return ::kill(static_cast<pid_t>(process_of(holder)), 0) == 0 || errno == EPERM;
   }
 
   fs::path file_;
@@ -225,7 +241,7 @@ void ResultsFolder::judge(const FolderUse& use) {
   read_manifest();
   if (overwrite_) return;
   const auto refuse = [&](const std::string& message) { throw Error(Location{path_.string()}, message); };
-  if (found.is_null())
+  if (found.is_null() || !is_whole(found))
     refuse(
         fmt::format("'{}' is damaged, so that nobody knows which run wrote this folder; choose another "
                     "--folder, or replace what is here with --overwrite",

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/run/error_norms.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/evaluator.hpp"
@@ -70,9 +71,6 @@ class Difference {
   [[nodiscard]] double norm(Shape shape, const std::vector<Expression>& known, bool along_normal) {
     const int dim = field_.mesh().dimension(), size = field_.place(unknown_).components;
     const int components = size * rows(shape, dim);
-    if (static_cast<int>(known.size()) != components)
-      throw Error(fmt::format("the known solution of '{}' needs {} entries, found {}", unknown_, components,
-                              known.size()));
     ElementEvaluator evaluator(
         domain_, {{std::make_shared<UnknownQuantity>(size, shape, dim), {Operand{side_, unknown_}}}});
     double square = 0;
@@ -114,6 +112,31 @@ class Difference {
 };
 
 }  // namespace
+
+void require_known_solution(const FieldEntry& entry, const Parameters& p) {
+  const std::string& unknown = p.text("unknown");
+  std::vector<std::string> names;
+  for (const Unknown& u : entry.field->unknowns()) names.push_back(u.name);
+  if (std::ranges::find(names, unknown) == names.end()) {
+    const std::string nearest = nearest_name(unknown, names);
+    throw Error(p.where("unknown"),
+                fmt::format("field '{}' has no unknown '{}'{}; it has: {}", entry.name, unknown,
+                            nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest),
+                            fmt::join(names, ", ")));
+  }
+  const int size = entry.field->place(unknown).components, dim = entry.mesh->dimension();
+  for (const auto& [key, shape] :
+       {std::pair("exact", Shape::value), std::pair("gradient", Shape::gradient)}) {
+    const int expected = size * rows(shape, dim);
+    if (!p.has(key) || static_cast<int>(p.vector_expression(key).size()) == expected) continue;
+    throw Error(
+        p.where(key),
+        fmt::format("the known solution of '{}' has {} entries here; expected {}{}", unknown,
+                    p.vector_expression(key).size(), expected,
+                    shape == Shape::value ? ", one a component"
+                                          : ", derivatives by x, y(, z) of one component after the other"));
+  }
+}
 
 ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
                        const std::vector<Expression>& exact, const std::vector<Expression>& gradient,

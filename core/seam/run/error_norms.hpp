@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seam/interface/interface.hpp"
+#include "seam/scene/parameters.hpp"
 #include "seam/solve/problem.hpp"
 
 namespace seam {
@@ -16,6 +17,9 @@ struct ErrorNorms {
   double l2 = 0;
   std::optional<double> h1;  ///< on an interface that of the normal derivative
 };
+/// @param p `output.errors.NAME` of a scene @throws Error where its unknown or the lengths of its lists do
+/// not fit the field
+void require_known_solution(const FieldEntry& entry, const Parameters& p);
 ErrorNorms error_norms(const FieldEntry& entry, const std::string& unknown,
                        const std::vector<Expression>& exact, const std::vector<Expression>& gradient,
                        double time);

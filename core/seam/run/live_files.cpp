@@ -43,9 +43,9 @@ std::string lines_until(const std::string& file, long step_number) {
   std::string kept;
   for (std::string line; std::getline(in, line) && !in.eof();) {
     const auto event = nlohmann::json::parse(line, nullptr, false);
-    const bool is_kept = event.is_object() && event.value("event", "") == "step" &&
-                         event.value("number", step_number + 1) <= step_number;
-    if (is_kept) kept += line + "\n";
+    if (!event.is_object() || !event.contains("number") || !event.at("number").is_number()) continue;
+    const bool is_step = event.contains("event") && event.at("event") == "step";
+    if (is_step && event.at("number") <= step_number) kept += line + "\n";
   }
   return kept;
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -94,12 +95,14 @@ std::string read_all(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+Error damaged_file(const std::filesystem::path& file) {
+  return Error(fmt::format("the restart point '{}' is damaged or incomplete", file.string()));
+}
+
 /// Header and payload of a complete file; throws when anything is damaged.
 nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes, const double*& payload,
                      std::size_t& count) {
-  const auto damaged = [&] {
-    return Error(fmt::format("the restart point '{}' is damaged or incomplete", file.string()));
-  };
+  const auto damaged = [&] { return damaged_file(file); };
   std::uint64_t length = 0, sum = 0;
   constexpr std::size_t fixed = sizeof magic + sizeof length;
   if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + sizeof magic, bytes.begin()))
@@ -109,11 +112,51 @@ nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes
   if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum ||
       length > bytes.size() - fixed - sizeof sum)
     throw damaged();
-  auto header = nlohmann::json::parse(bytes.begin() + fixed,
-                                      bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length));
+  auto header = nlohmann::json::parse(
+      bytes.begin() + fixed, bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length), nullptr, false);
+  if (!header.is_object()) throw damaged();
   payload = reinterpret_cast<const double*>(bytes.data() + fixed + length);
   count = (bytes.size() - fixed - length - sizeof sum) / sizeof(double);
   return header;
+}
+
+/// What the header says of the run; throws where something is missing, of another kind, or impossible.
+RunState read_header(const std::filesystem::path& file, const nlohmann::json& header) {
+  RunState state;
+  try {
+    state.time = header.at("time");
+    state.step = header.at("step");
+    state.step_number = header.at("step_number");
+    state.largest = header.at("largest").get<std::vector<double>>();
+    state.iterations = header.at("iterations").get<std::vector<int>>();
+    state.rejected_steps = header.at("rejected_steps");
+  } catch (const nlohmann::json::exception&) {
+    throw damaged_file(file);
+  }
+  if (!std::isfinite(state.time) || !std::isfinite(state.step) || !(state.step > 0) || state.step_number < 0)
+    throw Error(
+        fmt::format("the restart point '{}' holds the time {}, a step of {} s and the number {}: expected a "
+                    "step above 0, "
+                    "a finite time and a number from 0 on; resume from an older one",
+                    file.string(), state.time, state.step, state.step_number));
+  return state;
+}
+
+/// (name, number of values) of each series. A value belongs to a time.
+std::vector<std::pair<std::string, std::size_t>> read_series(const std::filesystem::path& file,
+                                                             const nlohmann::json& header) {
+  std::vector<std::pair<std::string, std::size_t>> all;
+  try {
+    const std::size_t times = header.at("times");
+    for (const auto& series : header.at("series")) {
+      all.emplace_back(series.at("name"), series.at("size"));
+      if (all.back().second != times) throw damaged_file(file);
+    }
+    all.emplace_back("time", times);
+  } catch (const nlohmann::json::exception&) {
+    throw damaged_file(file);
+  }
+  return all;
 }
 
 }  // namespace
@@ -171,29 +214,21 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   const nlohmann::json header = parse(file, bytes, payload, count);
   std::size_t at = 0, which = 0;
   const auto take = [&](std::size_t size) {
-    if (size > count - at) throw Error(fmt::format("the restart point '{}' is too short", file.string()));
+    if (size > count - at) throw damaged_file(file);
     const double* from = payload + std::exchange(at, at + size);
     return std::vector<double>(from, from + size);
   };
-  RunState state;
-  state.time = header["time"];
-  state.step = header["step"];
-  state.step_number = header["step_number"];
-  if (!(state.step > 0) || state.step_number < 0)
-    throw Error(
-        fmt::format("the restart point '{}' holds a step of {} s and the number {}: expected a step "
-                    "above 0 and a number from 0 on; resume from an older one",
-                    file.string(), state.step, state.step_number));
-  state.largest = header["largest"].get<std::vector<double>>();
-  state.iterations = header["iterations"].get<std::vector<int>>();
-  state.rejected_steps = header["rejected_steps"];
-  state.results.time = take(header["times"]);
-  for (const auto& series : header["series"]) state.results.series[series["name"]] = take(series["size"]);
+  RunState state = read_header(file, header);
+  const auto all_series = read_series(file, header);
+  const nlohmann::json blocks = header.value("blocks", nlohmann::json::array());
+  state.results.time = take(all_series.back().second);
+  for (std::size_t s = 0; s + 1 < all_series.size(); ++s)
+    state.results.series[all_series[s].first] = take(all_series[s].second);
   for (FieldEntry& entry : problem.fields())
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
       Block& block = entry.field->blocks()[b];
       const nlohmann::json expected = describe(entry, b);
-      if (which >= header["blocks"].size() || header["blocks"][which] != expected)
+      if (!blocks.is_array() || which >= blocks.size() || blocks[which] != expected)
         throw Error(fmt::format("the restart point '{}' was written by another scene: it does not hold {}",
                                 file.string(), expected.dump()));
       const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
@@ -216,6 +251,7 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
           decisions(*entry.mesh,
                     take(2 * static_cast<std::size_t>(entry.mesh->owner_of_global_cell().size()))),
           state.time);
+  if (at != count) throw damaged_file(file);
   return state;
 }
 
@@ -225,7 +261,9 @@ std::filesystem::path latest_restart(const std::vector<std::filesystem::path>& p
     try {
       const double* payload = nullptr;
       std::size_t count = 0;
-      if (parse(point, read_all(point), payload, count).value("run", "") == run) return point;
+      const nlohmann::json header = parse(point, read_all(point), payload, count);
+      const auto found = header.find("run");
+      if (found != header.end() && *found == run) return point;
       warnings.push_back(fmt::format("the restart point '{}' was written by another run", point.string()));
     } catch (const Error& error) {
       warnings.emplace_back(error.what());

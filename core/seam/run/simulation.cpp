@@ -663,6 +663,7 @@ std::map<std::string, double> Simulation::measure_errors() {
     const FieldEntry& entry = problem_.field(p.text("field"));
     const auto& exact = p.vector_expression("exact");
     const auto gradient = p.has("gradient") ? p.vector_expression("gradient") : std::vector<Expression>{};
+    require_known_solution(entry, p);
     const ErrorNorms norms = p.has("interface")
                                  ? interface_error_norms(problem_.interfaces().at(p.text("interface")), entry,
                                                          p.text("unknown"), exact, gradient, state_.time)

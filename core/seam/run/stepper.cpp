@@ -17,9 +17,10 @@ namespace {
 std::vector<double> read_times(const std::string& file, const Location& where) {
   std::ifstream in(file);
   std::string line;
-  if (!in || !std::getline(in, line) || !line.starts_with("time"))
+  if (!in || !std::getline(in, line) || line.substr(0, line.find(',')) != "time")
     throw Error(where,
                 fmt::format("'{}' holds no series of an earlier run; expected the series.csv of one", file));
+  const auto columns = std::count(line.begin(), line.end(), ',');
   std::vector<double> times;
   for (int number = 2; std::getline(in, line); ++number) {
     const std::string word = line.substr(0, line.find(','));
@@ -33,6 +34,14 @@ std::vector<double> read_times(const std::string& file, const Location& where) {
       throw bad("a time, as at the beginning of each line of a series.csv");
     if (!times.empty() && time <= times.back())
       throw bad(fmt::format("a time after that of the line before, {}", times.back()));
+    // A line that was cut short may begin with a part of its time.
+    if (const auto found = std::count(line.begin(), line.end(), ','); found != columns || in.eof())
+      throw Error(
+          where,
+          fmt::format(
+              "line {} of '{}' is not whole: found {} values{}, expected {} and the end of the line, as "
+              "a run writes them; take a series that is complete, or leave this line out",
+              number, file, found + 1, in.eof() ? " and the end of the file" : "", columns + 1));
     times.push_back(time);
   }
   if (times.size() < 2)

@@ -89,8 +89,12 @@ Location place_of(const std::string& text, std::size_t offset, const std::string
 /// Builds the tree from yaml-cpp's events, so that limits hold while the text is read, not after.
 class TreeBuilder : public YAML::EventHandler {
  public:
-  TreeBuilder(const std::string& name, const YamlLimits& limits)
-      : file_(std::make_shared<const std::string>(name)), limits_(limits) {}
+  TreeBuilder(const std::string& text, const std::string& name, const YamlLimits& limits)
+      : file_(std::make_shared<const std::string>(name)), limits_(limits), text_(text) {
+    lines_.push_back(0);
+    for (std::size_t at = text.find('\n'); at != std::string::npos; at = text.find('\n', at + 1))
+      lines_.push_back(at + 1);
+  }
 
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
@@ -111,8 +115,10 @@ class TreeBuilder : public YAML::EventHandler {
     open(make(YamlNode::Kind::sequence, mark, tag, anchor));
   }
   void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
-                  YAML::EmitterStyle::value) override {
+                  YAML::EmitterStyle::value style) override {
     open(make(YamlNode::Kind::map, mark, tag, anchor));
+    // In braces a word alone is a key without a value.
+    is_block_.back() = style != YAML::EmitterStyle::Flow;
   }
   void OnSequenceEnd() override { close(); }
   void OnMapEnd() override {
@@ -172,11 +178,13 @@ class TreeBuilder : public YAML::EventHandler {
                   fmt::format("nested more than {} levels deep; no scene needs that", limits_.depth));
     }
     open_.push_back(std::move(node));
+    is_block_.push_back(false);
   }
 
   void close() {
     YamlNode node = std::move(open_.back());
     open_.pop_back();
+    is_block_.pop_back();
     add(std::move(node));
   }
 
@@ -192,7 +200,25 @@ class TreeBuilder : public YAML::EventHandler {
     }
     // Programs that read YAML 1.1 take the key `on` for a truth value and write it back as one.
     if (is_key && (node.scalar == "true" || node.scalar == "True")) node.scalar = "on";
+    if (!is_key && node.kind == YamlNode::Kind::null && is_block_.back()) require_colon(parent.keys.back());
     (is_key ? parent.keys : parent.items).push_back(std::move(node));
+  }
+
+  /// The parser takes a word at the end of a block for a key without a value: so ends a file that was cut
+  /// short.
+  void require_colon(const YamlNode& key) const {
+    if (key.line < 1 || key.line > static_cast<int>(lines_.size())) return;
+    const std::string_view rest = std::string_view(text_).substr(lines_[key.line - 1]);
+    const std::string_view line = rest.substr(0, rest.find('\n'));
+    const auto from = static_cast<std::size_t>(key.column) - 1;
+    if (key.quoted || from > line.size() || !line.substr(from).starts_with(key.scalar)) return;
+    if (line.substr(0, from).find('?') != line.npos) return;  // "? key" needs no colon
+    const std::size_t next = line.find_first_not_of(" \t\r", from + key.scalar.size());
+    if (next != line.npos && line[next] == ':') return;
+    throw Error(key.where(),
+                fmt::format("found the word {} where its block ends; expected '{}:', and a value; is "
+                            "the file complete?",
+                            key.found(), key.scalar));
   }
 
   void find_duplicates(const YamlNode& map) {
@@ -208,7 +234,10 @@ class TreeBuilder : public YAML::EventHandler {
 
   std::shared_ptr<const std::string> file_;
   YamlLimits limits_;
+  const std::string& text_;
+  std::vector<std::size_t> lines_;  ///< where each begins
   std::vector<YamlNode> open_;
+  std::vector<bool> is_block_;  ///< of these, whether it is a map of lines
   std::size_t count_ = 0;
 };
 
@@ -219,6 +248,12 @@ void check_text(const std::string& text, const std::string& name, const YamlLimi
                             "in files of their own",
                             text.size(), limits.bytes));
   }
+  for (std::size_t at = text.find('\r'); at != std::string::npos; at = text.find('\r', at + 1))
+    if (text.substr(at, 2) != "\r\n")
+      throw Error(place_of(text, at, name),
+                  "found a carriage return (byte 0x0d) without a line feed behind it; expected lines that "
+                  "end as on Unix "
+                  "or Windows; save the file so, or remove it");
   const std::size_t bad = first_bad_byte(text);
   if (bad == std::string::npos) return;
   throw Error(place_of(text, bad, name),
@@ -230,12 +265,12 @@ void check_text(const std::string& text, const std::string& name, const YamlLimi
 
 YamlNode parse_yaml(const std::string& text, const std::string& name, const YamlLimits& limits) {
   check_text(text, name, limits);
-  TreeBuilder builder(name, limits);
+  TreeBuilder builder(text, name, limits);
   try {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
-    TreeBuilder rest(name, limits);
+    TreeBuilder rest(text, name, limits);
     if (parser.HandleNextDocument(rest)) {
       throw Error(rest.root.where(), "a second YAML document starts here ('---'); a scene is one document");
     }

@@ -278,6 +278,8 @@ void Newton::solve_initial_rates(double time) {
   at.initial_rates = true;
   problem_.update_spaces(at);
   problem_.assembler().assemble(at, true);
+  if (!problem_.assembler().is_finite())
+    throw Error("something is not finite at the start:" + problem_.assembler().describe_not_finite(at));
   std::vector<double> increment;
   SolveReport report;
   solve_linear(increment, report);

@@ -98,6 +98,10 @@ std::vector<double> stretch_lines(const Parameters& keys, int i, double from, do
 /// One stretch of cells after the other.
 std::vector<double> segment_lines(const Parameters& p, int i) {
   const Parameters& segments = p.object("segments");
+  if (segments.list(axis_names[i]).empty())
+    throw Error(
+        segments.where(axis_names[i]),
+        fmt::format("no stretch along {}; expected at least one, {{to: ..., cells: ...}}", axis_names[i]));
   std::vector<double> lines{segments.vector("from")[i]};
   for (const Parameters& segment : segments.list(axis_names[i])) {
     const std::vector<double> next =

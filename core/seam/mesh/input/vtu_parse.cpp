@@ -41,6 +41,14 @@ constexpr NumberType number_types[] = {
     {"Float32", 4, convert<float>},      {"Float64", 8, convert<double>},
 };
 
+/// Whether text ends with a word, which is then removed, as is white space behind it.
+bool remove_end(std::string_view& text, std::string_view word) {
+  text = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  if (!text.ends_with(word)) return false;
+  text.remove_suffix(word.size());
+  return true;
+}
+
 class Parser {
  public:
   Parser(const std::string& text, const std::string& name) : text_(text), name_(name) {}
@@ -51,8 +59,11 @@ class Parser {
       fail(1, "the file does not start with <VTKFile>, so it is not a VTK XML file");
     file_tag(tags[0]);
     if (tags.back().name == "AppendedData") appended_data(tags.back());
-    if (tags.back().name != "AppendedData" && tags.back().name != "/VTKFile")
-      fail(tags.back().line, "the file ends without </VTKFile>; it seems to be truncated");
+    // What is appended may hold anything, so that tags behind it are not read.
+    std::string_view rest(text_);
+    if (!remove_end(rest, "</VTKFile>") || (has_appended_ && !remove_end(rest, "</AppendedData>")))
+      fail(tags.back().line, fmt::format("the file ends without {}</VTKFile>; it seems to be truncated",
+                                         has_appended_ ? "</AppendedData>" : ""));
     std::string section;
     bool piece = false;
     for (const XmlTag& tag : tags) {

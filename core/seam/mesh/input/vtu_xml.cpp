@@ -9,6 +9,18 @@ namespace seam {
 
 namespace {
 
+/// The first character that the value of an attribute may not have, or npos. An entity begins with '&'.
+std::size_t first_forbidden(std::string_view value) {
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const auto c = static_cast<unsigned char>(value[i]);
+    if ((c < 0x20 && c != '\t' && c != '\r' && c != '\n') || c == '<') return i;
+    if (c != '&') continue;
+    const std::size_t end = value.find(';', i);
+    if (end == value.npos || value.substr(i, end - i).find(' ') != value.npos) return i;
+  }
+  return value.npos;
+}
+
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n'; }
 
 class Scanner {
@@ -20,11 +32,19 @@ class Scanner {
     while (true) {
       advance(std::min(text_.find('<', at_), text_.size()));
       if (at_ == text_.size()) return tags;
+      if (text_.substr(at_).starts_with("<?xml") && (declared_ || !tags.empty()))
+        fail("the XML declaration stands within the file; expected it in front, and once");
+      declared_ = declared_ || text_.substr(at_).starts_with("<?xml");
       if (skip("<!--", "-->") || skip("<?", "?>")) continue;
       bool closed = false;
       XmlTag tag = read_tag(closed);
       const bool appended = tag.name == "AppendedData" && !closed;
       tag.text = text_.substr(at_, appended ? text_.npos : text_.find('<', at_) - at_);
+      if (!closed) nest(tag);
+      if (appended && (open_.size() != 2 || open_[0] != "VTKFile"))
+        fail("appended data begin within " +
+             (open_.size() < 2 ? "nothing" : "<" + open_[open_.size() - 2] + ">") +
+             "; expected them within <VTKFile>, behind </UnstructuredGrid>");
       tags.push_back(std::move(tag));
       if (closed) tags.push_back({"/" + tags.back().name, {}, {}, line_});
       if (appended) return tags;
@@ -47,6 +67,20 @@ class Scanner {
     if (end == text_.npos) fail("the XML ends in a comment or a declaration; the file seems to be truncated");
     advance(end + close.size());
     return true;
+  }
+
+  /// What is opened last is closed first: else a line is missing, or there twice.
+  void nest(const XmlTag& tag) {
+    if (!tag.name.starts_with('/')) {
+      open_.push_back(tag.name);
+      return;
+    }
+    if (open_.empty() || "/" + open_.back() != tag.name)
+      throw Error(Location{name_, tag.line, 0},
+                  "found <" + tag.name + ">; expected " +
+                      (open_.empty() ? "nothing more" : "</" + open_.back() + ">") +
+                      ": the file is broken; write it anew");
+    open_.pop_back();
   }
 
   char peek() {
@@ -83,7 +117,14 @@ class Scanner {
       if (quote != '"' && quote != '\'') fail("the value of attribute '" + key + "' is not in quotes");
       const std::size_t end = text_.find(quote, at_ + 1);
       if (end == text_.npos) fail("the XML ends within an attribute; the file seems to be truncated");
-      tag.attributes[key] = std::string(text_.substr(at_ + 1, end - at_ - 1));
+      const std::string_view value = text_.substr(at_ + 1, end - at_ - 1);
+      if (const std::size_t bad = first_forbidden(value); bad != value.npos)
+        fail(std::string("the value of attribute '") + key + "' holds " +
+             (value[bad] == '<' || value[bad] == '&' ? std::string("'") + value[bad] + "'"
+                                                     : "a control character") +
+             ", which XML does not allow there; the file is broken");
+      if (!tag.attributes.emplace(key, value).second)
+        fail("this XML tag has the attribute '" + key + "' twice");
       advance(end + 1);
     }
     ++at_;
@@ -94,6 +135,8 @@ class Scanner {
   const std::string& name_;
   std::size_t at_ = 0;
   int line_ = 1;
+  std::vector<std::string> open_;
+  bool declared_ = false;
 };
 
 }  // namespace
