@@ -77,8 +77,8 @@ def main():
         passed += 1
     allowed = allowed_early(results / "early.txt")
     if early > allowed:
-        print(f"FAIL {early} records are of runs that ended early, docs/results/early.txt allows {allowed}: run them to "
-              "their ends")
+        print(f"FAIL records of runs that ended early: found {early}, docs/results/early.txt allows {allowed}; run scenes to "
+              "their ends and record them")
         failed += 1
     elif early < allowed:
         print(f"docs/results/early.txt may say {early} instead of {allowed} now")

@@ -132,7 +132,7 @@ def early_runs():
         shutil.rmtree(repository.results / "block")
         repository.run("--set", "time.end=0.5")
         expect(repository, "one more that ended early", False, "early configs/solid/block.yaml: finished at t = 0.5 of 1",
-               "1 records are of runs that ended early")
+               "ended early: found 1, docs/results/early.txt allows 0")
         repository.allow(1)
         expect(repository, "one that may end early", True, "early configs/solid/block.yaml")
         assert "Ended early" in (repository.results / "block/early.md").read_text()
