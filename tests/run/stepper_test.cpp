@@ -65,6 +65,35 @@ TEST_CASE("kinks are found within conditions, sums and functions; not where only
   const std::vector<double> taken = times(folder, "r");
   for (const double kink : {0.25, 0.59, 0.63, 0.85}) CHECK(contains(taken, kink));
   CHECK(taken.size() == 15);
+
+  const auto times_of = [&](const std::string& load) {
+    REQUIRE(run(folder, folder.file("s.yaml", scene(load, "{end: 1, step: {initial: 0.3}}")), "s").code == 0);
+    return times(folder, "s");
+  };
+  for (const std::string load : {"t < 0.5 == 1", "0.5 > t", "t == 0.5 ? 1 : 0", "t < 0.5 + 0*x ? 0 : 1"})
+    CHECK(contains(times_of(load), 0.5));
+  // What changes for ever is for the steps to resolve; a kink next to the end is the end.
+  CHECK(times_of("sin(1e6*t) > 0").size() == 5);
+  CHECK(times_of("t < 0.9999999999").back() == 1);
+}
+
+TEST_CASE("a replay takes the steps of another run from the first one on, and ends where it is to end") {
+  const Folder folder;
+  const auto times_of = [&](const std::string& series) {
+    static_cast<void>(folder.file("in.csv", "time,a\n" + series));
+    const Result result =
+        run(folder, folder.file("s.yaml", scene("t", "{end: 1, step: {initial: 0.1, replay: in.csv}}")), "s");
+    INFO(result.output);
+    REQUIRE(result.code == 0);
+    return times(folder, "s");
+  };
+  CHECK(times_of("0,1\n0.5,1\n1,1\n") == std::vector<double>{0, 0.5, 1});
+  CHECK(times_of("0,1\n2,1\n3,1\n").back() == 1);
+  static_cast<void>(folder.file("in.csv", "time,a\n5,1\n6,1\n"));
+  const Result other =
+      run(folder, folder.file("s.yaml", scene("t", "{end: 1, step: {initial: 0.1, replay: in.csv}}")), "s");
+  CHECK(other.code == 2);
+  CHECK_THAT(other.output, Catch::Contains("lies within this run"));
 }
 
 TEST_CASE("what is left before the end is no step of its own where it is next to nothing") {

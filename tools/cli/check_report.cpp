@@ -86,7 +86,12 @@ nlohmann::json diagnostics_as_json(const std::string& messages) {
     std::smatch part;
     if (!std::regex_match(line, part, form)) {
       // It goes on with what was said before.
-      if (all.empty()) all.push_back({{"severity", "error"}, {"message", ""}});
+      if (all.empty())
+        all.push_back({{"severity", "error"},
+                       {"file", nullptr},
+                       {"line", nullptr},
+                       {"column", nullptr},
+                       {"message", ""}});
       auto& message = all.back()["message"];
       message = message.get<std::string>() + (message.get<std::string>().empty() ? "" : "\n") + line;
       continue;

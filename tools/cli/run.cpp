@@ -49,18 +49,18 @@ int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_roo
     options.ignore_scenes_folder = true;
     try {
       const SceneOutcome outcome = run_scene(options);
-      if (outcome.interruption) {
-        if (is_root) report_interruption(outcome);
-        return outcome.exit_code();
-      }
+      // A signal is meant for all; the time that one scene may take is its own.
+      if (outcome.interruption && is_root) report_interruption(outcome);
+      if (outcome.interruption && outcome.interruption->signal != 0) return outcome.exit_code();
+      const bool holds = outcome.passed() && !outcome.interruption;
       if (is_root)
-        fmt::print("{} {} ({} checks, {:.2f} s)\n{}", outcome.passed() ? "ok  " : "FAIL", scene,
+        fmt::print("{} {} ({} checks, {:.2f} s)\n{}", holds ? "ok  " : "FAIL", on_one_line(scene),
                    outcome.checks.size(), outcome.timings.total, check_table(outcome.checks));
-      ++(outcome.passed() ? passed : bad);
+      ++(holds ? passed : bad);
     } catch (const std::exception&) {
       ++bad;
       const std::string message = agree_on_exception();
-      if (is_root) fmt::print("FAIL {}\n{}\n", scene, message);
+      if (is_root) fmt::print("FAIL {}\n{}\n", on_one_line(scene), message);
     }
   }
   if (is_root) fmt::print("{} passed, {} failed\n", passed, bad);

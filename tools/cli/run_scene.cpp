@@ -37,6 +37,13 @@ std::filesystem::path results_folder(const SceneRun& run, const Scene& scene,
   std::filesystem::path folder =
       is_given ? output.text("folder")
                : from_root(communicator, communicator.rank() == 0 ? default_folder(scene).string() : "");
+  // A folder that is called like a file of a run would be in another one's way.
+  for (const std::filesystem::path& part : folder)
+    if (ResultsFolder::is_name_of_file(part))
+      throw Error(
+          is_given ? output.where("folder") : Location{folder.string()},
+          fmt::format("'{}' is called like a file that runs write; choose another folder for the results",
+                      part.string()));
   // What comes with a stranger's scene may hold links, too.
   if (policy().restricted && !is_below(folder, "."))
     throw Error(Location{folder.string()},
@@ -173,6 +180,12 @@ SceneOutcome run_scene(const SceneRun& run) {
   // Before anything is built: what the folder holds may forbid the run.
   ResultsFolder folder(communicator, scene, results_folder(run, scene, communicator), run.use);
   outcome.folder = folder.path();
+  // Whoever starts a run again until it is done is not to have it solved again.
+  if (folder.has_finished() && !run.use.changed)
+    throw RunFailure(
+        fmt::format("the run in {} is finished, there is nothing to resume; --overwrite solves it again",
+                    folder.path().string()),
+        ok);
   Simulation simulation(scene, registry, communicator);
   RunOptions options;
   options.results = &folder;

@@ -73,14 +73,42 @@ bool is_below(const std::filesystem::path& path, const std::filesystem::path& fo
   return of_top == top.end() || (of_top->empty() && std::next(of_top) == top.end());
 }
 
+namespace {
+
+/// Behind spaces of any width, none included, with which programs that read logs let a line begin.
+std::size_t first_visible(const std::string& text) {
+  static const std::vector<std::string> blanks = [] {
+    std::vector<std::string> all{
+        " ",           "\xc2\xa0", "\xc2\xad", "\xd8\x9c", "\xe1\x9a\x80", "\xe1\xa0\x8e", "\xe3\x80\x80",
+        "\xef\xbb\xbf"};
+    for (const int c : {0x80, 0x81, 0x82, 0x83, 0x84, 0x85, 0x86, 0x87, 0x88, 0x89, 0x8a, 0x8b, 0x8c, 0x8d,
+                        0x8e, 0x8f, 0xa8, 0xa9, 0xaf})
+      all.push_back(std::string("\xe2\x80") + static_cast<char>(c));
+    for (int c = 0x9f; c <= 0xaf; ++c) all.push_back(std::string("\xe2\x81") + static_cast<char>(c));
+    return all;
+  }();
+  std::size_t at = 0;
+  for (bool found = true; found;) {
+    found = false;
+    for (const std::string& blank : blanks)
+      if (text.compare(at, blank.size(), blank) == 0) {
+        at += blank.size();
+        found = true;
+      }
+  }
+  return at;
+}
+
+}  // namespace
+
 std::string on_one_line(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   // C1 control characters, as UTF-8; U+009B begins an escape sequence.
   for (std::size_t i = 0; i + 1 < text.size(); ++i)
     if (text[i] == '\xc2' && static_cast<unsigned char>(text[i + 1]) < 0xa0) text[i] = text[i + 1] = ' ';
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first != std::string::npos && text.compare(first, 2, "::") == 0) text.insert(first + 1, " ");
+  const std::size_t first = first_visible(text);
+  if (text.compare(first, 2, "::") == 0) text.insert(first + 1, " ");
   for (std::size_t at = 0; (at = text.find("##[", at)) != std::string::npos;) text.insert(at + 1, " ");
   return text;
 }

@@ -307,6 +307,18 @@ std::vector<std::string> ResultsFolder::restart_points() const {
   return result;
 }
 
+bool ResultsFolder::is_name_of_file(const fs::path& name) {
+  static const std::set<std::string> endings{".csv",  ".json", ".jsonl", ".lock",    ".png", ".pvd",
+                                             ".pvtu", ".txt",  ".vtu",   ".restart", ".vtp", ".pvtp"};
+  return endings.contains(name.extension().string());
+}
+
+bool ResultsFolder::has_finished() const {
+  const bool mine = communicator_.rank() == 0 && resumed_ && word(record_->data, "status") == "finished" &&
+                    restart_points().empty();
+  return communicator_.any(mine);
+}
+
 void ResultsFolder::begin(std::optional<long> resumed_at) {
   all_or_none<FileError>(communicator_, [&] {
     if (communicator_.rank() == 0) clear(resumed_at);

@@ -50,6 +50,11 @@ class ResultsFolder {
   [[nodiscard]] bool resumes() const { return resumed_; }
   /// Names of those that are listed and there, the newest first. On rank 0; empty elsewhere.
   [[nodiscard]] std::vector<std::string> restart_points() const;
+  /// Whether runs write files, and no folders, with such a name.
+  [[nodiscard]] static bool is_name_of_file(const std::filesystem::path& name);
+  /// Whether the run that is resumed came to its end and left no restart point: to go on would be to begin
+  /// anew. Collective.
+  [[nodiscard]] bool has_finished() const;
 
   /// Removes what an earlier run wrote, or what the run that is resumed wrote after this step, and records
   /// the start. Collective.

@@ -26,7 +26,12 @@ std::string library_name(const std::string& plugin) { return "libseam_" + plugin
 std::string plugin_name(const fs::path& file) {
   const std::string name = file.filename().string(), start = "libseam_", end = ".so";
   if (name.size() <= start.size() + end.size() || !name.starts_with(start) || !name.ends_with(end)) return "";
-  return name.substr(start.size(), name.size() - start.size() - end.size());
+  const std::string middle = name.substr(start.size(), name.size() - start.size() - end.size());
+  // What is no name ends up in no message.
+  const auto may_stand = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  };
+  return std::ranges::all_of(middle, may_stand) ? middle : "";
 }
 
 /// Whoever can change Seam itself needs no plugin for it: root, this user, and the owner of this library.
@@ -51,6 +56,10 @@ std::string insecurity(const fs::path& path) {
   // Root's mark that only the owner of an entry may replace it.
   const bool is_sticky = S_ISDIR(status.st_mode) && (status.st_mode & S_ISVTX) != 0;
   if ((status.st_mode & S_IWOTH) != 0 && !is_sticky) return "everybody may write to it";
+  // The group of a user alone has the user's number.
+  const bool is_shared = status.st_gid != 0 && status.st_gid != geteuid() && status.st_gid != status.st_uid;
+  if ((status.st_mode & S_IWGRP) != 0 && is_shared && !is_sticky)
+    return fmt::format("a group of users (number {}) may write to it", status.st_gid);
   return "";
 }
 

@@ -32,6 +32,13 @@ nlohmann::json describe(const FieldEntry& entry, std::size_t b) {
           {"levels", block.now.levels().size()}};
 }
 
+/// "320 nodes of water/order 1 with 3 numbers each, of 2 levels in time"
+std::string in_words(const nlohmann::json& block) {
+  const auto number = [&](const char* key) { return block.value(key, nlohmann::json()).dump(); };
+  return fmt::format("{} nodes of {} with {} numbers each, of {} levels in time", number("nodes"),
+                     number("name"), number("size"), number("levels"));
+}
+
 /// Values by global number, on rank 0: [global entity][component].
 /// @param global number of each owned entity @param count of all of them
 std::vector<double> collect(const Communicator& communicator, const std::vector<int>& global, int count,
@@ -229,8 +236,11 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
       Block& block = entry.field->blocks()[b];
       const nlohmann::json expected = describe(entry, b);
       if (!blocks.is_array() || which >= blocks.size() || blocks[which] != expected)
-        throw Error(fmt::format("the restart point '{}' was written by another scene: it does not hold {}",
-                                file.string(), expected.dump()));
+        throw Error(fmt::format(
+            "the restart point '{}' does not fit this scene: found {}, expected {}; its mesh or the "
+            "order of its unknowns has changed, with which no run can go on",
+            file.string(), blocks.is_array() && which < blocks.size() ? in_words(blocks[which]) : "nothing",
+            in_words(expected)));
       const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
       const std::vector<std::vector<double>*> levels = block.now.levels();
       for (std::vector<double>* level : levels) {

@@ -69,8 +69,9 @@ Stepper::Stepper(const Scene& scene) {
   const TimeUse use = find_time_use(scene, start_, end_);
   depends_on_time_ = use.any;
   kinks_.clear();
+  const double crumb = 1e-9 * (end_ - start_);
   for (const double kink : use.kinks)
-    if (kink > start_ && kink < end_) kinks_.push_back(kink);
+    if (kink > start_ + crumb && kink < end_ - crumb) kinks_.push_back(kink);
   kinks_.push_back(end_);
   if (p.has("step")) read_steps(p.object("step"));
 }
@@ -83,7 +84,16 @@ void Stepper::read_steps(const Parameters& step) {
   if (adaptive_) maximum_ = std::max(initial_, 0.1 * (end_ - start_));
   if (step.has("maximum")) maximum_ = step.number("maximum");
   if (step.has("minimum")) minimum_ = step.number("minimum");
-  if (step.has("replay")) replay_ = read_times(step.text("replay"), step.where("replay"));
+  if (!step.has("replay")) return;
+  replay_ = read_times(step.text("replay"), step.where("replay"));
+  const double slack = 1e-10 * (end_ - start_);
+  const auto first = std::upper_bound(replay_.begin(), replay_.end(), start_ + slack);
+  if (first == replay_.end() || *first > end_ + slack)
+    throw Error(
+        step.where("replay"),
+        fmt::format("none of the times of '{}', {:.6g} to {:.6g}, lies within this run, {:.6g} to {:.6g}",
+                    step.text("replay"), replay_.front(), replay_.back(), start_, end_));
+  first_ = *first - start_;
 }
 
 double Stepper::target(double time, double planned) const {
@@ -99,7 +109,7 @@ double Stepper::target(double time, double planned) const {
 double Stepper::aim(double time, double planned) const {
   const double slack = 1e-10 * (end_ - start_);
   const auto next = std::upper_bound(replay_.begin(), replay_.end(), time + slack);
-  if (next != replay_.end()) return std::min(*next, time + planned);
+  if (next != replay_.end()) return std::min({*next, time + planned, end_});
   if (!adaptive_) planned = std::min(planned, to_grid(time));
   const double stop = *std::upper_bound(kinks_.begin(), kinks_.end() - 1, time + slack);
   // No crumbs: a step up to a hundredth longer or shorter than planned swallows them.

@@ -26,7 +26,7 @@ class Stepper {
   [[nodiscard]] bool finished(double time) const { return time >= end_ - 1e-10 * (end_ - start_); }
 
   /// Length of the step to try first, s.
-  [[nodiscard]] double initial() const { return initial_; }
+  [[nodiscard]] double initial() const { return first_ > 0 ? first_ : initial_; }
   /// Where a step that should be `planned` long ends: earlier where a kink or the end comes first, and there
   /// exactly.
   /// @throws Error when that is not after `time`, since the step is too small beside it
@@ -49,6 +49,7 @@ class Stepper {
   double theta_ = 1, start_ = 0, end_ = 1;
   double initial_ = 1, minimum_ = 1e-6, maximum_ = 1, tolerance_ = 1e-3;
   std::vector<double> kinks_{1.0};  ///< ascending, the end included
+  double first_ = 0;                ///< length of the first step of a replay, s; 0 without one
   std::vector<double> replay_;      ///< ends of steps; empty when they are chosen here
 };
 

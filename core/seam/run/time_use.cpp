@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <functional>
+#include <set>
 #include <string>
 
 #include "seam/scene/expression.hpp"
@@ -35,7 +36,7 @@ void visit_scalars(const YAML::Node& node, const std::string& path, const Visit&
 /// The operand that begins at (step +1) or ends before (step -1) position `at`, up to what separates
 /// operands outside of its own parentheses.
 std::string operand(const std::string& text, std::size_t at, int step) {
-  const std::string separators = step > 0 ? "?:,&|)" : "?:,&|(<>=!";
+  const std::string separators = step > 0 ? "?:,&|)<>=!" : "?:,&|(<>=!";
   std::string result;
   int depth = 0;
   for (auto i = static_cast<std::ptrdiff_t>(at) - (step < 0 ? 1 : 0);
@@ -78,10 +79,10 @@ struct Condition {
 std::vector<Condition> conditions(const std::string& text) {
   std::vector<Condition> result;
   for (std::size_t at = 0; at < text.size(); ++at) {
-    if (text[at] == '<' || text[at] == '>') {
-      const bool equal = at + 1 < text.size() && text[at + 1] == '=';
-      result.push_back({operand(text, at, -1), operand(text, at + (equal ? 2 : 1), +1)});
-    }
+    const bool equal = at + 1 < text.size() && text[at + 1] == '=';
+    const bool orders = text[at] == '<' || text[at] == '>';
+    const bool equates = equal && (text[at] == '=' || text[at] == '!');
+    if (orders || equates) result.push_back({operand(text, at, -1), operand(text, at + (equal ? 2 : 1), +1)});
     if (text[at] != '(') continue;
     std::size_t begin = at;
     while (begin > 0 && is_name(text[begin - 1])) --begin;
@@ -102,58 +103,90 @@ bool is_t_alone(std::string text) {
 }
 
 /// Appends the times within (from, to) at which a difference changes its sign, where it depends on the time
-/// alone. What happens between two of `samples` times is not seen.
+/// alone. What happens between two of `samples` times is not seen; what changes more often than `most` times
+/// is for the steps to resolve.
 void find_zeros(const Expression& difference, double from, double to, std::vector<double>& zeros) {
-  constexpr int samples = 1000;
+  constexpr int samples = 1000, compared = 7;
+  constexpr std::size_t most = 50;
   constexpr std::array here{0.37, -0.21, 0.11}, there{-1.3, 2.7, 0.9};
   const auto value = [&](double t) { return difference(here.data(), 3, t); };
+  for (int k = 0; k < compared; ++k) {
+    const double time = from + (to - from) * (k + 0.5) / compared;
+    const double elsewhere = difference(there.data(), 3, time);
+    if (value(time) < elsewhere || value(time) > elsewhere) return;
+  }
+  std::vector<double> found;
   double before = from, value_before = value(from);
   for (int k = 1; k <= samples; ++k) {
     const double time = from + (to - from) * k / samples, now = value(time);
-    const double elsewhere = difference(there.data(), 3, time);
-    if (now < elsewhere || now > elsewhere) return;
     double low = before, high = time;
-    if (now == 0 && time < to) zeros.push_back(time);
+    if (now == 0 && time < to) found.push_back(time);
     for (bool crosses = value_before * now < 0; crosses;) {
       const double middle = low + 0.5 * (high - low);
       if (middle <= low || middle >= high) {
-        zeros.push_back(high);
+        found.push_back(high);
         break;
       }
       const double at_middle = value(middle);
       (at_middle * value_before > 0 ? low : high) = middle;
     }
+    if (found.size() > most) return;
     before = time;
     value_before = now;
   }
+  zeros.insert(zeros.end(), found.begin(), found.end());
 }
 
-void examine(const std::string& text, const std::map<std::string, double>& parameters, TimeUse& use,
-             double from, double to) {
-  for (const auto& [left, right] : conditions(text)) {
-    if (!speaks_of_time(left) && !speaks_of_time(right)) continue;
-    try {
+/// Looks at each condition of a scene once, within bounds: some scenes are long.
+class Search {
+ public:
+  Search(const std::map<std::string, double>& parameters, double from, double to)
+      : parameters_(parameters), from_(from), to_(to) {}
+
+  void examine(const std::string& text, std::vector<double>& kinks) {
+    if (!speaks_of_time(text) || !seen_.insert(text).second) return;
+    for (const auto& [left, right] : conditions(text)) {
+      if (!speaks_of_time(left) && !speaks_of_time(right)) continue;
       // What t itself is compared with is the time, to the bit.
-      if (is_t_alone(left) && !speaks_of_time(right))
-        use.kinks.push_back(evaluate_constant(right, parameters));
-      else if (is_t_alone(right) && !speaks_of_time(left))
-        use.kinks.push_back(evaluate_constant(left, parameters));
-      else
-        find_zeros(Expression("(" + left + ")-(" + right + ")", parameters), from, to, use.kinks);
-    } catch (const Error&) {
-      // It depends on the position, or the text is no expression: then there is no single time.
+      if (is_t_alone(left) && !speaks_of_time(right) && add_constant(right, kinks)) continue;
+      if (is_t_alone(right) && !speaks_of_time(left) && add_constant(left, kinks)) continue;
+      const std::string difference = "(" + left + ")-(" + right + ")";
+      // Nested ones are about as long as what they stand in.
+      if (!seen_.insert(difference).second || (left_ -= static_cast<long>(difference.size())) < 0) continue;
+      try {
+        find_zeros(Expression(difference, parameters_), from_, to_, kinks);
+      } catch (const Error&) {
+        // The text is no expression.
+      }
     }
   }
-}
+
+ private:
+  /// False where it depends on the position, or is no expression.
+  bool add_constant(const std::string& text, std::vector<double>& kinks) const {
+    try {
+      kinks.push_back(evaluate_constant(text, parameters_));
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  const std::map<std::string, double>& parameters_;
+  double from_, to_;
+  long left_ = 50000;  ///< characters of differences that may still be looked at: about half a second
+  std::set<std::string> seen_;
+};
 
 }  // namespace
 
 TimeUse find_time_use(const Scene& scene, double from, double to) {
   TimeUse use;
+  Search search(scene.parameters, from, to);
   // What is recorded does not act.
   const auto look_at = [&](const std::string& path, const std::string& text) {
     use.any = use.any || speaks_of_time(text);
-    if (!path.starts_with("output.")) examine(text, scene.parameters, use, from, to);
+    if (!path.starts_with("output.")) search.examine(text, use.kinks);
   };
   const auto replaced = [&](const std::string& path) {
     return std::any_of(scene.overrides.begin(), scene.overrides.end(),

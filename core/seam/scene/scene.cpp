@@ -81,7 +81,7 @@ void require_parameter(const YamlNode& root, const std::vector<std::string>& key
 }
 
 void apply(YamlNode& root, const std::string& path, const std::string& text) {
-  const Location where{fmt::format("--set {}={}", path, text), 0, 0};
+  const Location where{on_one_line(fmt::format("--set {}={}", path, text)), 0, 0};
   const std::vector<std::string> keys = split(path);
   constexpr std::size_t deepest = 20;
   if (keys.size() > deepest) throw Error(where, "the key path is too long");

@@ -70,9 +70,12 @@ bool is_invisible_control(std::string_view text) {
   if (text.size() < 2) return false;
   const auto second = static_cast<unsigned char>(text[1]);
   if (text[0] == '\xc2') return second < 0xa0;
+  if (text[0] == '\xd8') return second == 0x9c;  // Arabic letter mark
+  if (text.substr(0, 3) == "\xef\xbb\xbf") return true;
   if (text.size() < 3 || text[0] != '\xe2') return false;
   const auto third = static_cast<unsigned char>(text[2]);
   return (second == 0x80 && third >= 0xa8 && third <= 0xae) ||
+         (second == 0x80 && (third == 0x8b || third == 0x8e || third == 0x8f)) ||
          (second == 0x81 && third >= 0xa6 && third <= 0xa9);
 }
 
