@@ -37,6 +37,7 @@ class Rules:
             return "no UTF-8"
         if re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", text):
             return "control characters"
+        text = text.replace("%YAML 1.1", "%YAML 1.2")  # Seam reads the one as the other
         # Tabs are fine but where they indent, which this reader does not know.
         text = re.sub(r"(?<=\S)[ \t]+", " ", re.sub(r"(?m)[ \t]+$|^[ \t]+(?=#)", "", text))
         try:
@@ -70,9 +71,9 @@ class Rules:
 
 
 def without_open_keys(value):
-    """Keys without a value are as if they were not there; `on` is a truth value after `%YAML 1.1`."""
+    """Keys without a value are as if they were not there."""
     if isinstance(value, dict):
-        return {"on" if key is True else key: without_open_keys(child) for key, child in value.items() if child is not None}
+        return {key: without_open_keys(child) for key, child in value.items() if child is not None}
     return [without_open_keys(child) for child in value] if isinstance(value, list) else value
 
 

@@ -95,10 +95,11 @@ class Scanner {
     while (!is_blank(peek()) && peek() != '>' && peek() != '=' && !(peek() == '/' && at_ > from)) ++at_;
     std::string found(text_.substr(from, at_ - from));
     const auto forbidden = [](unsigned char c) {
-      return c < 0x20 || std::string_view("<&\"'").find(static_cast<char>(c)) != std::string_view::npos;
+      return c < 0x20 || c > 0x7e ||
+             std::string_view("<&\"'").find(static_cast<char>(c)) != std::string_view::npos;
     };
     if (std::ranges::any_of(found, forbidden))
-      fail("a name in this XML tag holds a character that XML does not allow there; the file is broken");
+      fail("a name in this XML tag holds a character that no VTK file has there; the file is broken");
     return found;
   }
 
