@@ -163,6 +163,8 @@ TEST_CASE("A VTU file whose tags do not fit together is refused") {
   CHECK_THAT(with("<VTKFile ", "<?xml version=\"1.0\"?>\n<VTKFile "),
              Contains("the XML declaration stands within the file"));
   CHECK_THAT(with("\"0.1\"", "\"0.\x1b\""), Contains("attribute 'version' holds a control character"));
+  CHECK_THAT(with("byte_order", "byte\x1b_order"),
+             Contains("m.vtu:2: error: a name in this XML tag holds a character"));
   CHECK_THAT(with("\"0.1\"", "\"0&1\""), Contains("attribute 'version' holds '&'"));
   CHECK_THAT(with("Name=\"offsets\"", "Name=\"offsets\" Name=\"types\""),
              Contains("m.vtu:9: error: this XML tag has the attribute 'Name' twice"));

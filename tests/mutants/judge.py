@@ -37,8 +37,9 @@ class Rules:
             return "no UTF-8"
         if re.search(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f]", text):
             return "control characters"
-        # Tabs before comments and at the end of lines are fine, which this reader does not know.
-        text = re.sub(r"(?m)[ \t]+$|^[ \t]+(?=#)", "", text)
+        text = text.replace("%YAML 1.1", "%YAML 1.2")  # Seam reads the one as the other
+        # Tabs are fine but where they indent, which this reader does not know.
+        text = re.sub(r"(?<=\S)[ \t]+", " ", re.sub(r"(?m)[ \t]+$|^[ \t]+(?=#)", "", text))
         try:
             why = self._forbidden(text)
             return why or self._by_schema(text)

@@ -3,7 +3,7 @@
 """Damages shipped scenes, their meshes, restart points and replayed series, and looks at what Seam does with them.
 
   tests/mutants/mutants.py build/bin/seam --check 10000 --run 1000 --files 1000 --seed 1 --record
-  tests/mutants/mutants.py build/bin/seam --check 150 --run 15 --files 45                             what continuous integration runs
+  tests/mutants/mutants.py build/bin/seam --check 100 --run 12 --files 36                             what continuous integration runs
   tests/mutants/mutants.py build/bin/seam --only check 4711 --keep out                                one of them, which stays in a folder
   tests/mutants/mutants.py build/bin/seam --check 10000 --rows rows.jsonl                             goes on with what rows.jsonl holds
   tests/mutants/mutants.py build/bin/seam --rows rows.jsonl --again                                   what was bad there, once more

@@ -93,7 +93,14 @@ class Scanner {
   std::string word() {
     const std::size_t from = at_;
     while (!is_blank(peek()) && peek() != '>' && peek() != '=' && !(peek() == '/' && at_ > from)) ++at_;
-    return std::string(text_.substr(from, at_ - from));
+    std::string found(text_.substr(from, at_ - from));
+    const auto forbidden = [](unsigned char c) {
+      return c < 0x20 || c > 0x7e ||
+             std::string_view("<&\"'").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (std::ranges::any_of(found, forbidden))
+      fail("a name in this XML tag holds a character that no VTK file has there; the file is broken");
+    return found;
   }
 
   /// Reads from '<' to behind '>'.
