@@ -321,6 +321,19 @@ TEST_CASE("a scene that asks for more than is allowed is refused where it asks, 
     CHECK(result.code == 2);
     CHECK_THAT(result.output, Contains("scene.yaml:") && Contains(one.found));
   }
+  SECTION("nor does one that takes too long, or whose name would be a line of the log") {
+    static_cast<void>(
+        here.file("slow.yaml",
+                  block + "time: {static: true, end: 1, step: {initial: 1e-6}}\noutput: {fields: false}\n"));
+    static_cast<void>(here.file("good.yaml", block));
+    static_cast<void>(here.file("x\n7 passed, 0 failed\n.yaml", block));
+    const Result result =
+        seam("verify --restricted --limit seconds=0.5 slow.yaml *passed*.yaml good.yaml --quiet");
+    INFO(result.output);
+    CHECK(result.code == 1);
+    CHECK_THAT(result.output, Contains("FAIL slow.yaml") && Contains("ok   good.yaml") &&
+                                  Contains("1 passed, 2 failed") && !Contains("\n7 passed"));
+  }
   SECTION("and does not end `seam verify` of the others") {
     static_cast<void>(here.file("huge.yaml", with(block, "[2, 2]", "[20000, 20000]")));
     static_cast<void>(here.file("good.yaml", block));
@@ -472,4 +485,28 @@ TEST_CASE("plugins come from where only their owner, root or Seam's owner may wr
     CHECK(result.code == 3);
     CHECK_THAT(result.output, Contains("not searched: ") && Contains("do as is said there"));
   }
+}
+
+TEST_CASE("no title begins a command of continuous integration behind spaces of any width") {
+  const Here here;
+  for (const std::string blank : {"\\u00a0", "\\u2003", "\\u3000", "\\u180e", "\\u00a0 \\u2009"}) {
+    static_cast<void>(here.file(
+        "scene.yaml", with(block, "title: A block", "title: \"" + blank + "::error file=x.yaml::pwned\"")));
+    const Result result = seam("run scene.yaml --quiet --no-picture --overwrite");
+    INFO(result.output);
+    CHECK(result.code == 0);
+    CHECK_THAT(result.output, Contains(": :error") && !Contains("::error"));
+  }
+  for (const std::string mark : {"\\u200b", "\\u200f", "\\u061c", "\\ufeff"}) {
+    static_cast<void>(here.file("scene.yaml", with(block, "title: A block", "title: \"a" + mark + "b\"")));
+    CHECK_THAT(seam("check scene.yaml").output, Contains("found a control character"));
+  }
+}
+
+TEST_CASE("results are no folder in the place of a file of another run") {
+  const Here here;
+  static_cast<void>(here.file("scene.yaml", block + "output: {folder: results/a/run.lock}\n"));
+  const Result result = seam("run scene.yaml --quiet --no-picture");
+  CHECK(result.code == 2);
+  CHECK_THAT(result.output, Contains("'run.lock' is called like a file that runs write"));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/contact/facet_search.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -64,6 +65,22 @@ TEST_CASE("a ray meets the side of a body that faces it, from outside and from w
     CHECK_FALSE(search.find(ahead, direction, 0.5, 1));
     CHECK_FALSE(search.find(within, direction, 0.5, 3));
     CHECK_FALSE(search.find(ahead, direction, 0.5, 3, [](int) { return true; }));
+  }
+}
+
+TEST_CASE("where a ray meets two facets in their common vertex the first of them counts, on every rank") {
+  for (const int turn : {0, 1, 2, 3}) {
+    Surface square = polygon(4, 1);
+    square.points = {1, 0, 0, 1, -1, 0, 0, -1};  // without rounding
+    std::rotate(square.facets.begin(), square.facets.begin() + 2 * turn, square.facets.end());
+    // Those that end and begin at the corner in the west.
+    int first = 0;
+    while (square.facets[2 * first] != 2 && square.facets[2 * first + 1] != 2) ++first;
+    const double x[] = {-2, 0}, direction[] = {1, 0};
+    const auto hit = FacetSearch(square).find(x, direction, 0.5, 3);
+    REQUIRE(hit);
+    CHECK(hit->gap == Approx(1));
+    CHECK(hit->facet == first);
   }
 }
 

@@ -53,6 +53,10 @@ TEST_CASE("bodies overlap where a vertex of one lies within the other") {
     for (double& x : small.points) x = 0.3 + 0.4 * x;
     CHECK(vertex_inside(one, small));
     CHECK_FALSE(vertex_inside(turned, small));
+    const std::vector<double> middle(3, 0.5), outside(3, 1.5);
+    CHECK(seam::is_inside(one, middle.data()));
+    CHECK_FALSE(seam::is_inside(one, outside.data()));
+    CHECK_FALSE(seam::is_inside(turned, middle.data()));
     // What is open has none.
     Surface open = one;
     open.closed = false;

@@ -58,6 +58,26 @@ TEST_CASE("check estimates memory and the seconds of a step") {
   CHECK(check(scene + " --set solver.linear=krylov")["includes_linear_solves"] == false);
 }
 
+TEST_CASE("what is prescribed is a number, and --set knows the scene's parameters") {
+  const Folder folder;
+  const std::string text =
+      "title: a block\ndimension: 2\nplugins: [solid]\nparameters: {late: 0.2}\n"
+      "meshes: {block: {grid: {from: [0, 0], to: [1, 1], cells: [2, 2]}}}\n"
+      "fields:\n  block:\n    type: solid\n    mesh: block\n"
+      "    material: {type: neo_hookean, young: 10, poisson: 0.3}\n"
+      "    boundary: [{on: x_min, displacement: [0, \"0.1*sqrt(t - late)\"]}]\n"
+      "time: {end: 1, step: {initial: 0.5}}\n";
+  const std::string file = folder.file("s.yaml", text);
+  const Result undefined = seam("check " + file);
+  CHECK(undefined.code == 2);
+  CHECK_THAT(undefined.output, Catch::Contains("s.yaml:11:") && Catch::Contains("sqrt(t - late)") &&
+                                   Catch::Contains("on boundary 'x_min' of field 'block'"));
+  const Result unknown = seam("check " + file + " --set parameters.lat=0");
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.output, Catch::Contains("the scene has no parameter 'lat'. Did you mean 'late'?"));
+  CHECK(seam("check " + file + " --set parameters.late=0").code == 0);
+}
+
 TEST_CASE("check --json holds errors and warnings with their places, and the exit code") {
   const Folder folder;
   const std::string file = folder.file("s.yaml",

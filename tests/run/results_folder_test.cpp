@@ -177,6 +177,19 @@ TEST_CASE("a mesh file with another content is a change") {
   CHECK(run(folder, "r", "--resume", scene).code == 0);
 }
 
+TEST_CASE("a finished run is not solved again by --resume") {
+  const Folder folder;
+  const std::string without = "--set 'output.restart={every: 0, minutes: 0}' ";
+  REQUIRE(run(folder, "r", without).code == 0);
+  REQUIRE(json(folder, "r/run.json")["status"] == "finished");
+  const std::string first = json(folder, "r/run.json")["run"];
+  const Result again = run(folder, "r", without + "--resume");
+  INFO(again.output);
+  CHECK(again.code == 0);
+  CHECK_THAT(again.output, Contains("is finished, there is nothing to resume"));
+  CHECK(json(folder, "r/run.json")["run"] == first);
+}
+
 TEST_CASE("--resume says when there is nothing to go on from") {
   const Folder folder;
   const Result fresh = run(folder, "r", "--resume --stop-after 2");

@@ -88,7 +88,7 @@ TEST_CASE("a replay takes the steps of another run from the first one on, and en
     return times(folder, "s");
   };
   CHECK(times_of("0,1\n0.5,1\n1,1\n") == std::vector<double>{0, 0.5, 1});
-  CHECK(times_of("0,1\n2,1\n3,1\n").back() == 1);
+  CHECK(times_of("0,1\n0.6,1\n2,1\n") == std::vector<double>{0, 0.6, 1});
   static_cast<void>(folder.file("in.csv", "time,a\n5,1\n6,1\n"));
   const Result other =
       run(folder, folder.file("s.yaml", scene("t", "{end: 1, step: {initial: 0.1, replay: in.csv}}")), "s");

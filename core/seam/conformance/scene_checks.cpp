@@ -9,6 +9,7 @@
 
 #include "seam/base/plugin_fault.hpp"
 #include "seam/conformance/tangent.hpp"
+#include "seam/run/evaluate.hpp"
 #include "seam/run/simulation.hpp"
 
 namespace seam {
@@ -188,6 +189,11 @@ ConformanceCheck check_start(const Scene& scene, const Registry& registry) {
   const TimePoint at = step_from(stepper, stepper.start());
   Problem& problem = start.problem();
   problem.assembler().assemble(at, true);
+  // What is written for pictures, too: a run of the kit writes none.
+  for (const FieldEntry& entry : problem.fields())
+    for (const FieldQuantity& output : entry.outputs)
+      static_cast<void>(
+          nodal_values(entry, *entry.field->blocks().front().space, find_quantity(entry, output.name), at));
   const bool finite = problem.assembler().is_finite();
   return conformance_check("finite at the start", finite,
                            finite ? "all terms and their derivatives"

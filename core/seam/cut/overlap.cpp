@@ -61,21 +61,33 @@ struct Box {
   }
 };
 
+/// Whether a body that a closed surface bounds, or surrounds, is at a point in the box around the surface.
+class Inside {
+ public:
+  explicit Inside(const Surface& surface) : s_(surface), box_(surface), around_(surrounds(surface)) {
+    for (int d = 0; d < s_.dimension; ++d) size_ = std::max(size_, box_.most[d] - box_.least[d]);
+  }
+  bool operator()(const double* x) const {
+    // What touches does not overlap.
+    for (int d = 0; d < s_.dimension; ++d)
+      if (x[d] <= box_.least[d] + 1e-9 * size_ || x[d] >= box_.most[d] - 1e-9 * size_) return false;
+    double view = 0;
+    for (int f = 0; f < s_.facet_count(); ++f) view += part_of_view(s_, f, x);
+    return around_ ? std::abs(view) < 0.25 : view > 0.75;
+  }
+
+ private:
+  const Surface& s_;
+  Box box_;
+  bool around_;
+  double size_ = 0;
+};
+
 std::optional<std::vector<double>> vertex_within(const Surface& a, const Surface& b) {
-  const Box box(b);
-  const bool around = surrounds(b);
-  double size = 0;
-  for (int d = 0; d < b.dimension; ++d) size = std::max(size, box.most[d] - box.least[d]);
+  const Inside inside(b);
   for (int v = 0; v < a.point_count(); ++v) {
     const double* x = &a.points[static_cast<std::size_t>(v) * a.dimension];
-    bool near = true;
-    // What touches does not overlap.
-    for (int d = 0; d < a.dimension; ++d)
-      near = near && x[d] > box.least[d] + 1e-9 * size && x[d] < box.most[d] - 1e-9 * size;
-    if (!near) continue;
-    double view = 0;
-    for (int f = 0; f < b.facet_count(); ++f) view += part_of_view(b, f, x);
-    if (around ? std::abs(view) < 0.25 : view > 0.75) return std::vector<double>(x, x + a.dimension);
+    if (inside(x)) return std::vector<double>(x, x + a.dimension);
   }
   return std::nullopt;
 }
@@ -87,5 +99,7 @@ std::optional<std::vector<double>> vertex_inside(const Surface& a, const Surface
   if (auto found = vertex_within(a, b)) return found;
   return vertex_within(b, a);
 }
+
+bool is_inside(const Surface& surface, const double* x) { return surface.closed && Inside(surface)(x); }
 
 }  // namespace seam

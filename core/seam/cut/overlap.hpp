@@ -12,4 +12,7 @@ namespace seam {
 /// of each other, as a cross of two bars, are not found.
 std::optional<std::vector<double>> vertex_inside(const Surface& a, const Surface& b);
 
+/// Whether a point lies within the body that a closed surface bounds.
+bool is_inside(const Surface& surface, const double* x);
+
 }  // namespace seam

@@ -45,7 +45,6 @@ class Names {
                                     nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest),
                                     fmt::join(known, ", ")));
   }
-  void error(const Location& where, std::string message) { wrong_.error(where, std::move(message)); }
   /// Where the scene names what records a series: a probe, or nothing but a field or an interface.
   [[nodiscard]] Location place_of(const std::string& series) const {
     for (const auto& [name, p] : output_.map("probes"))
@@ -61,28 +60,6 @@ class Names {
   std::map<std::string, std::string> taken_;  ///< by the name in formulas
   std::vector<std::string> names_;
   Diagnostics wrong_;
-};
-
-/// From when to when it goes.
-class Run {
- public:
-  explicit Run(const Scene& scene) {
-    if (!scene.root.has("time")) return;
-    start_ = scene.root.object("time").number("start");
-    end_ = scene.root.object("time").number("end");
-  }
-  void require_within(const Parameters& p, const std::string& key, Names& names) const {
-    const double time = p.number(key), slack = 1e-9 * (end_ - start_);
-    if (time >= start_ - slack && time <= end_ + slack) return;
-    // A window may be open: only one that begins after the end, or ends before the start, holds nothing.
-    if ((key == "from" && time < end_) || (key == "to" && time > start_)) return;
-    names.error(p.where(key),
-                fmt::format("`{}: {:.6g}` lies outside of the run, which goes from t = {:.6g} to {:.6g}", key,
-                            time, start_, end_));
-  }
-
- private:
-  double start_ = 0, end_ = 1;
 };
 
 }  // namespace
@@ -102,21 +79,16 @@ void check_result_names(const Scene& scene, const Results& row) {
     series.push_back(name);
   }
   names.leave_formulas();
-  const Run run(scene);
   for (const auto& [name, p] : output.map("statistics")) {
     names.take(name, "a statistic", p.where());
     names.require(p.text("of"), series, p.where("of"));
-    for (const std::string key : {"from", "to"})
-      if (p.has(key)) run.require_within(p, key, names);
   }
   for (const auto& [name, p] : output.map("errors"))
     for (const std::string norm : {".l2", ".h1"})
       if (norm == ".l2" || p.has("gradient")) names.take(name + norm, "an error", p.where());
   for (const std::string& name : counts_at_the_end) names.take(name, "a count of the run", output.where());
-  for (const Parameters& check : scene.root.list("checks")) {
+  for (const Parameters& check : scene.root.list("checks"))
     names.require(check.text("that"), names.all(), check.where("that"));
-    if (check.has("at")) run.require_within(check, "at", names);
-  }
   names.throw_if_wrong();
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "seam/cut/overlap.hpp"
 
@@ -20,6 +21,9 @@ class Doubts {
     look_for_overlap();
     for (const auto& [name, interface] : built_.interfaces) add_body(name, *interface);
     look_at_pairs();
+    look_at_times();
+    for (const auto& [name, probe] : built_.scene.root.object("output").map("probes"))
+      look_at_probe(name, probe);
     for (const Parameters& coupling : built_.scene.root.list("coupling")) look_at_wall(coupling);
     return std::move(found_);
   }
@@ -115,6 +119,41 @@ class Doubts {
                    "and if one moves, it goes through the other",
                    bodies_[i].name, bodies_[j].name, fmt::join(*at, ", ")));
       }
+  }
+
+  /// Checks and statistics that look where the run does not come to.
+  void look_at_times() {
+    const double slack = 1e-9 * (built_.end - built_.start);
+    const auto look_at = [&](const Parameters& p, const std::string& key, double least, double most) {
+      if (!p.has(key) || (p.number(key) >= least - slack && p.number(key) <= most + slack)) return;
+      warn(p.where(key),
+           fmt::format("`{}: {:.6g}` lies outside of the run, which goes from t = {:.6g} to {:.6g}: "
+                       "there is no number then",
+                       key, p.number(key), built_.start, built_.end));
+    };
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const Parameters& check : built_.scene.root.list("checks"))
+      look_at(check, "at", built_.start, built_.end);
+    for (const auto& [name, p] : built_.scene.root.object("output").map("statistics")) {
+      look_at(p, "from", -infinite, built_.end);
+      look_at(p, "to", built_.start, infinite);
+    }
+  }
+
+  /// A point in a body has nothing of the field around it.
+  void look_at_probe(const std::string& name, const Parameters& probe) {
+    if (!probe.has("field") || !probe.has("at")) return;
+    const std::vector<double> at = probe.vector("at");
+    for (const Body& body : bodies_) {
+      if (body.field != probe.text("field")) continue;
+      const std::optional<Surface> around = surface(body, built_.start);
+      if (around && is_inside(*around, at.data()))
+        warn(probe.where("at"),
+             fmt::format(
+                 "the point of the probe '{}' lies in the body of '{}' at the start: what is recorded there "
+                 "is not the field '{}'",
+                 name, body.name, body.field));
+    }
   }
 
   /// A wall that moves one way and says another velocity lets fluid through.

@@ -139,7 +139,9 @@ class Conversion {
 
 MeshData read_gmsh_text(const std::string& text, const std::string& name) {
   const GmshFile file = parse_gmsh(text, name);
-  return Conversion(file, name).convert();
+  MeshData mesh = Conversion(file, name).convert();
+  validate_mesh(mesh, name, file.node_tags);
+  return mesh;
 }
 
 MeshData read_gmsh(const std::string& path) { return read_gmsh_text(read_text(path), path); }

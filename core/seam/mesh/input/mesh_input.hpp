@@ -21,8 +21,10 @@ MeshData load_mesh(const Parameters& parameters);
 /// Checks what no later code wants to meet: node numbers in range, no dangling nodes, no degenerate or
 /// inverted cell (inverted ones are reported, not turned), no cell twice, no face with more than two cells.
 /// @param origin what to name in messages: the file, or the place of the mesh in the scene
+/// @param numbers of the nodes in the file, for messages; empty: they count from 0
 /// @throws Error listing up to ten offending cells or nodes.
-void validate_mesh(const MeshData& mesh, const std::string& origin);
+void validate_mesh(const MeshData& mesh, const std::string& origin,
+                   const std::vector<long long>& numbers = {});
 
 /// Gmsh 2.2 or 4.1, ASCII; second-order cells become geometry of order 2. Physical groups of the cells'
 /// dimension become regions, those one lower become boundaries.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <compare>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -94,8 +95,8 @@ class Gradients {
 
 class Validation {
  public:
-  Validation(const MeshData& mesh, const std::string& origin)
-      : m_(mesh), origin_(origin), t_(topology(mesh.type)), n_(t_.nodes(mesh.order)) {}
+  Validation(const MeshData& mesh, const std::string& origin, const std::vector<long long>& numbers)
+      : m_(mesh), origin_(origin), numbers_(numbers), t_(topology(mesh.type)), n_(t_.nodes(mesh.order)) {}
 
   void run() const {
     sizes();
@@ -114,13 +115,26 @@ class Validation {
     return &m_.coordinates[static_cast<std::size_t>(a) * m_.dimension];
   }
 
+  /// A node's number in the file.
+  [[nodiscard]] long long number(int a) const {
+    return a >= 0 && a < static_cast<int>(numbers_.size()) ? numbers_[a] : a;
+  }
+  [[nodiscard]] std::vector<long long> numbers(const int* from, const int* to) const {
+    std::vector<long long> result;
+    std::transform(from, to, std::back_inserter(result), [&](int a) { return number(a); });
+    return result;
+  }
+  /// A file that numbers its nodes numbers its elements, too: of cells it is not known how.
+  [[nodiscard]] std::string name_of(int c) const {
+    return numbers_.empty() ? fmt::format("cell {}", c) : std::string("the cell");
+  }
   /// A cell as a user finds it again: number, nodes, place.
   [[nodiscard]] std::string describe(int c) const {
     std::array<double, 3> centre{};
     for (int v = 0; v < t_.vertices; ++v)
       for (int i = 0; i < m_.dimension; ++i) centre[i] += node(cell(c)[v])[i] / t_.vertices;
-    return fmt::format("cell {} (nodes {}) around ({:.6g})", c,
-                       fmt::join(cell(c), cell(c) + t_.vertices, " "),
+    return fmt::format("{} (nodes {}) around ({:.6g})", name_of(c),
+                       fmt::join(numbers(cell(c), cell(c) + t_.vertices), " "),
                        fmt::join(centre.begin(), centre.begin() + m_.dimension, ", "));
   }
 
@@ -151,7 +165,8 @@ class Validation {
     for (int a = 0; a < m_.node_count(); ++a)
       if (!used[a])
         bad.add([&] {
-          return fmt::format("node {} at ({:.6g})", a, fmt::join(node(a), node(a) + m_.dimension, ", "));
+          return fmt::format("node {} at ({:.6g})", number(a),
+                             fmt::join(node(a), node(a) + m_.dimension, ", "));
         });
     bad.throw_if_any(origin_, "dangling node(s), which belong to no cell:",
                      "they would be unknowns without an equation; in Gmsh, save the physical groups only "
@@ -162,7 +177,7 @@ class Validation {
     Offenders bad;
     for (int a = 0; a < m_.node_count(); ++a)
       if (!std::all_of(node(a), node(a) + m_.dimension, [](double x) { return std::isfinite(x); }))
-        bad.add([&] { return fmt::format("node {}", a); });
+        bad.add([&] { return fmt::format("node {}", number(a)); });
     bad.throw_if_any(origin_, "node(s) with coordinates that are not finite numbers:", "");
   }
 
@@ -183,7 +198,10 @@ class Validation {
     Offenders bad;
     for (std::size_t i = 1; i < by_key.size(); ++i)
       if (std::equal(key(by_key[i]), key(by_key[i]) + v, key(by_key[i - 1])))
-        bad.add([&] { return fmt::format("{} repeats cell {}", describe(by_key[i]), by_key[i - 1]); });
+        bad.add([&] {
+          return fmt::format("{} repeats {}", describe(by_key[i]),
+                             numbers_.empty() ? name_of(by_key[i - 1]) : "another one");
+        });
     bad.throw_if_any(
         origin_, "cell(s) that are there twice:",
         "remove the copies; Gmsh's format 2.2 writes a cell once per physical group, so put each cell "
@@ -257,9 +275,10 @@ class Validation {
         bad.add([&] {
           const auto first =
               std::find_if(keys[i].nodes.begin(), keys[i].nodes.end(), [](int a) { return a >= 0; });
-          return fmt::format("face with nodes {} of cells {}, {} and {}",
-                             fmt::join(first, keys[i].nodes.end(), " "), keys[i - 2].cell, keys[i - 1].cell,
-                             keys[i].cell);
+          const auto nodes = numbers(&*first, keys[i].nodes.data() + keys[i].nodes.size());
+          if (!numbers_.empty()) return fmt::format("face with nodes {}", fmt::join(nodes, " "));
+          return fmt::format("face with nodes {} of cells {}, {} and {}", fmt::join(nodes, " "),
+                             keys[i - 2].cell, keys[i - 1].cell, keys[i].cell);
         });
     bad.throw_if_any(origin_, "face(s) that more than two cells share:",
                      "cells overlap or several parts are glued at one face; check the geometry");
@@ -282,12 +301,15 @@ class Validation {
 
   const MeshData& m_;
   const std::string& origin_;
+  const std::vector<long long>& numbers_;
   const CellTopology& t_;
   int n_;
 };
 
 }  // namespace
 
-void validate_mesh(const MeshData& mesh, const std::string& origin) { Validation(mesh, origin).run(); }
+void validate_mesh(const MeshData& mesh, const std::string& origin, const std::vector<long long>& numbers) {
+  Validation(mesh, origin, numbers).run();
+}
 
 }  // namespace seam
