@@ -39,11 +39,11 @@ output:
     const Result result = seam("check " + file + " --set parameters.n=6", before);
     CHECK(result.code == 0);
     CHECK_THAT(result.output, Contains("mesh box of 12 quadrilateral cells") &&
-                                  Contains("displacement (m)") && Contains("tip.x, tip.y") &&
+                                  Contains("displacement [m]") && Contains("tip.x [m], tip.y [m]") &&
                                   Contains("42 unknowns") &&
                                   Contains("warning: no field uses the mesh 'other'"));
   }
-  CHECK_FALSE(std::filesystem::exists("results"));
+  CHECK_FALSE(std::filesystem::exists("results/scene"));
   // What only the equations show.
   const Result free = seam("check " + file + " --set fields.block.boundary=[]");
   CHECK(free.code == 2);

@@ -50,7 +50,7 @@ TEST_CASE("each number of a run has a name of its own") {
        "no result is called 'tip.z'; did you mean 'tip.x'?"},
       {"  formulas: {twice: 2*tip_z}", "unknown name 'tip_z'"},
       {"  errors: {e: {field: block, unknown: velocity, exact: [0, 0]}}", "no unknown 'velocity'"},
-      {"  errors: {e: {field: block, unknown: displacement, exact: [0]}}", "needs 2 entries"},
+      {"  errors: {e: {field: block, unknown: displacement, exact: [0]}}", "expected 2, one a component"},
   };
   for (const Wrong& wrong : all) {
     const Run run(block(wrong.output), "--quiet");

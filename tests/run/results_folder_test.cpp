@@ -256,7 +256,7 @@ TEST_CASE("a restart point is refused whose checksum is right and whose header s
   }
   for (const int times : {5, -1, 7, 1000000}) check_refused(with("times", times), damaged);
   check_refused(with("series", {{{"name", "a"}, {"size", 1}}}), damaged);
-  check_refused(with("blocks", 1), "was written by another scene");
+  check_refused(with("blocks", 1), "does not fit this scene");
 }
 
 TEST_CASE("a record of a run that is JSON but none of a run is refused") {

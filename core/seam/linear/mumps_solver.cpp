@@ -204,6 +204,7 @@ void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&,
 }
 
 MumpsSolver::Effort MumpsSolver::estimate(const Matrix& a) {
+  if (a.global_rows == 0) return {};
   if (instance_->pattern_version != a.pattern_version) analyse(a);
   return {1e6 * instance_->info(17), instance_->mumps.rinfog[0]};
 }

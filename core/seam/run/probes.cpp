@@ -29,9 +29,7 @@ void require_prescribed(const FieldEntry& entry, const std::vector<std::string>&
     if (is_meant && condition.unknown == first.name) return;
     if (is_meant) other = condition.unknown;
   }
-  if (other.empty())
-    throw Error(fmt::format("a reaction is what holds '{}' where it is prescribed; on {} nothing is",
-                            first.name, fmt::join(boundaries, ", ")));
+  if (other.empty()) return;
   throw Error(
       fmt::format("a reaction is what holds the first unknown of a field, here '{}', but on {} only "
                   "'{}' is prescribed; that of another unknown cannot be recorded yet",

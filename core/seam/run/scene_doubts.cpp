@@ -121,6 +121,21 @@ class Doubts {
       }
   }
 
+  void look_at_reaction(const std::string& name, const Parameters& probe) {
+    const std::vector<std::string> on = probe.names("on");
+    const auto& fields = built_.problem.fields();
+    const auto entry = std::ranges::find(fields, probe.text("field"), &FieldEntry::name);
+    if (entry == fields.end()) return;
+    const auto holds = [&](const PrescribedCondition& condition) {
+      return condition.boundary.empty() || std::ranges::find(on, condition.boundary) != on.end();
+    };
+    if (std::ranges::none_of(entry->conditions, holds))
+      warn(probe.where("on"),
+           fmt::format("nothing is prescribed on {}, so that nothing holds the field '{}' there: the "
+                       "reaction '{}' is that of other conditions at shared nodes, or 0",
+                       fmt::join(on, ", "), entry->name, name));
+  }
+
   /// Checks and statistics that look where the run does not come to.
   void look_at_times() {
     const double slack = 1e-9 * (built_.end - built_.start);
@@ -142,6 +157,8 @@ class Doubts {
 
   /// A point in a body has nothing of the field around it.
   void look_at_probe(const std::string& name, const Parameters& probe) {
+    if (probe.has("field") && probe.text("quantity") == "reaction" && probe.has("on"))
+      look_at_reaction(name, probe);
     if (!probe.has("field") || !probe.has("at")) return;
     const std::vector<double> at = probe.vector("at");
     for (const Body& body : bodies_) {
