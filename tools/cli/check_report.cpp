@@ -13,7 +13,7 @@ namespace {
 
 std::string with_unit(const nlohmann::json& named) {
   const nlohmann::json& unit = named["unit"];
-  const std::string name = named["name"];
+  std::string name = named["name"];
   if (unit.is_null()) return name;
   return fmt::format("{} [{}]", name, unit.get<std::string>().empty() ? "-" : unit.get<std::string>());
 }
