@@ -125,7 +125,7 @@ std::string name_newest_restart(const ResultsFolder& folder) {
 std::string record_failure(Simulation& simulation, ResultsFolder& folder, const Communicator& communicator) {
   const bool keeps = !is_own_fault();
   const std::string message = agree_on_exception();
-  const std::string text = as_error(message);
+  std::string text = as_error(message);
   const std::string status = communicator.any(keeps) ? "broken" : "failed";
   try {
     simulation.record_failure(message);
