@@ -134,7 +134,7 @@ def first_failure(output):
     if case:
         return case.group(1).strip()
     for line in output.splitlines():
-        if not line.startswith("ok") and re.search(r"FAIL|\bfailed\b|error|wrong", line):
+        if not line.lstrip().startswith("ok") and re.search(r"FAIL|\bfailed\b|error|wrong", line):
             return " ".join(line.split())[:120]
     return ""
 
