@@ -33,18 +33,18 @@ CHAINS = {
                "fsi:contact_in_fluid_test kit:nitsche_fsci",
     "cut": "cut cut_stress run:moving_cut_test run:separate_parts_test run:pocket_test fluid kit:cutfem_fluid "
            "scene:fsi/c01",
-    "cutfem_fluid": "fluid kit:cutfem_fluid run:moving_mesh_test scene:fluid/couette_slip scene:fluid/patch_shear "
+    "cutfem_fluid": "fluid:kernel_test fluid kit:cutfem_fluid run:moving_mesh_test scene:fluid/couette_slip scene:fluid/patch_shear "
                     "scene:fluid/vortices",
     "field": "solver run:restart_test",
     "interface": "mesh solver cut scene:solid/bonded_blocks",
     "linear": "solver fluid:linear_solver_test kit:cutfem_fluid",
     "mesh": "mesh input",
-    "nitsche_fsci": "fsi:eigenvalue_test fsi:exact_test fsi:contact_in_fluid_test fsi:porous_trends_test kit:nitsche_fsci "
+    "nitsche_fsci": "solver:nitsche_kernels_test solver:coupling_kernels_test fsi:eigenvalue_test fsi:exact_test fsi:contact_in_fluid_test fsi:porous_trends_test kit:nitsche_fsci "
                     "scene:contact/patch_2d run:energy_test",
     "output": "run:output_test run:results_test run:results_folder_test run:cut_output_test run:flush_test",
     "physics": "solver kit:solid",
     "plugin": "input conformance",
-    "poroelasticity": "kit:poroelasticity run:porous_test run:porous_orders_test scene:poro/waves scene:poro/terzaghi",
+    "poroelasticity": "solver:pore_kernels_test solver:coupling_kernels_test kit:poroelasticity run:porous_test run:porous_orders_test scene:poro/waves scene:poro/terzaghi",
     "run": "run:statistics_test run:stepper_test run:balances_test run:results_test run:restart_test run:time_scheme_test "
            "run:error_norms_test fsi:replay_test run",
     "scene": "input cli",

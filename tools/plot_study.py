@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the table of `seam study`: each measure against a key of the scene, unknowns, seconds and memory."""
+"""Draws the table of `seam study`: each measure against a key of the scene, errors also against what they cost: unknowns,
+seconds and memory."""
 
 import argparse
 import csv
@@ -90,7 +91,8 @@ def mark_values(axes, rows, key):
     texts = {evaluate(row[key]): row[key] for row in rows}
     if 0 < len(values) <= 10:
         axes.set_xticks(values)
-        axes.set_xticklabels([texts[v] for v in values])
+        crowded = sum(len(texts[v]) for v in values) > 30
+        axes.set_xticklabels([texts[v] for v in values], rotation=45 if crowded else 0)
         axes.minorticks_off()
 
 
@@ -104,20 +106,30 @@ def main():
     options = parser.parse_args()
 
     rows, title = read(options.table)
-    costs = {"unknowns", "seconds.total", "seconds.assembly", "seconds.linear", "peak_memory_bytes"}
-    measures = [m for m in options.measure if m not in costs] or options.measure
+    cost = {"unknowns", "seconds.total", "seconds.assembly", "seconds.linear", "peak_memory_bytes"}
+    measures = [m for m in options.measure if m not in cost] or options.measure
     groups = curves(rows, options.key, options.against)
-    panels = [(options.against, options.against, 1.0), ("unknowns", "unknowns", 1.0),
-              ("seconds.total", "seconds", 1.0), ("peak_memory_bytes", "peak memory, MB", 1e-6)]
-    figure, grid = plt.subplots(len(measures), len(panels), figsize=(4.1 * len(panels), 3.8 * len(measures)),
-                                squeeze=False, sharey="row", constrained_layout=True)
-    for line, measure in zip(grid, measures):
-        for axes, (column, label, scale) in zip(line, panels):
+    key = (options.against, options.against, 1.0)
+    costs = [("unknowns", "unknowns", 1.0), ("seconds.total", "seconds", 1.0), ("peak_memory_bytes", "peak memory, MB", 1e-6)]
+    # Rows of panels: an error with its costs; of what is no error, as many as fit.
+    lines = [[(m, *panel) for panel in [key, *costs]] for m in measures if is_error(m)]
+    others = [(m, *key) for m in measures if not is_error(m)]
+    lines += [others[k:k + 1 + len(costs)] for k in range(0, len(others), 1 + len(costs))]
+    width = max(map(len, lines))
+    figure, grid = plt.subplots(len(lines), width, figsize=(4.1 * width, 3.8 * len(lines)), squeeze=False,
+                                constrained_layout=True)
+    for all_axes, line in zip(grid, lines):
+        for axes in all_axes[len(line):]:
+            axes.remove()
+        for axes, (measure, column, label, scale) in zip(all_axes, line):
             draw(axes, groups, column, measure, label, scale, annotate=column == options.against)
-        mark_values(line[0], rows, options.against)
-        line[0].set_ylabel(measure)
-        if len(groups) > 1 or is_error(measure):
-            line[0].legend(fontsize=9, framealpha=0.9)
+            if column != options.against:
+                axes.sharey(all_axes[0])
+                continue
+            mark_values(axes, rows, options.against)
+            axes.set_ylabel(measure)
+            if len(groups) > 1 or is_error(measure):
+                axes.legend(fontsize=9, framealpha=0.9)
     figure.suptitle(title, fontsize=12)
     figure.savefig(options.picture, dpi=110)
 

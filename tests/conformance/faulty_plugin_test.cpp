@@ -45,6 +45,7 @@ TEST_CASE("what a plugin declares that cannot be is refused by check, with plugi
        "it depends on a rate of 'temperature', which has none: its time_order is 0; declare at least 1"},
       {"few operands", "its kernel speaks of 1 unknowns, but 0 were given"},
       {"many operands", "its kernel speaks of 1 unknowns, but 2 were given, 'temperature' twice"},
+      {"crowd", "its kernel speaks of 33 unknowns; 32 at most are possible"},
       {"null term", "its build() adds a term that is null"},
       {"null quantity", "its build() adds a quantity that is null"},
       {"quantity as term", "adds the quantity 'Numbers<1>' as a term; make_term() makes those"},

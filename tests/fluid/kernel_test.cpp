@@ -294,3 +294,84 @@ TEST_CASE("simple shear takes the power of its stress times its rate") {
     CHECK(value == Approx(0.23 * 3 * 3));
   }
 }
+
+TEST_CASE(
+    "residual stabilisation resists a change of volume by half the momentum through a cell and the "
+    "viscosity") {
+  const OnePoint at(2);
+  const double h = cell_size / std::sqrt(2.0), speed = std::hypot(1.2, 0.5);
+  // div v = 2, everything else as it comes: of the tests with grad v the trace is that of grad-div and SUPG.
+  const std::vector<double> in{1.2, 0.5, 0, 0, 1.5, 0, 0, 0.5, 0, 0};
+  const auto with = residual(*make_term(ResidualStabilisation{flow, {}, 1, 0.7}), at, in);
+  const auto without = residual(*make_term(ResidualStabilisation{flow, {}, 1, 0}), at, in);
+  const double tau = 0.7 * std::hypot(0.5 * flow.density * h * speed, flow.viscosity);
+  const double expected[4] = {2 * tau, 0, 0, 2 * tau};
+  for (int k = 0; k < 4; ++k) CHECK(with[k] - without[k] == Approx(expected[k]).margin(1e-13));
+}
+
+TEST_CASE("what is left of the traction of a developed flow at its outlet is nothing") {
+  // v = (y^2, 0) through x = const: sigma n - mu dv/dn = mu grad(v)^T n.
+  OnePoint at(2);
+  at.normal = {1, 0};
+  const std::vector<double> developed{0, 0.8, 0, 0};  // dv_x/dy alone
+  const auto term = make_term(DoNothing{0.3});
+  CHECK(residual(*term, at, developed)[0] == 0);
+  CHECK(residual(*term, at, developed)[1] == Approx(-0.3 * 0.8));
+  // A flow that turns across the outlet, dv_y/dx, leaves nothing.
+  for (const double r : residual(*term, at, {0, 0, 0.8, 0})) CHECK(r == 0);
+}
+
+TEST_CASE("backflow takes out what energy it would bring in, and nothing where fluid leaves") {
+  const OnePoint at(2);
+  const auto term = make_term(Backflow{1.7, 0.5});
+  const std::vector<double> in{-1.1, 0.2}, out{1.1, -0.2};  // n = (0.6, 0.8)
+  const double through = -1.1 * 0.6 + 0.2 * 0.8;
+  // Half the kinetic energy that comes in with the flow.
+  CHECK(dot_of(residual(*term, at, in), in) == Approx(-0.5 * 1.7 * through * dot_of(in, in)));
+  for (const double r : residual(*term, at, out)) CHECK(r == 0);
+}
+
+TEST_CASE(
+    "with the skew adjoint, the edge of a patch takes exactly the energy of its penalty and its upwind "
+    "flux") {
+  const int dim = GENERATE(2, 3);
+  const OnePoint at(dim);
+  const auto term = make_term(FluidFluid{flow, 0.3, 1, 20, true});
+  const std::vector<double> in = random_inputs(*term, dim, 0.4);
+  const int matrix = dim * dim, patch = dim + matrix + 1;
+  const std::vector<double> r = residual(*term, at, in);
+  double energy = 0, square = 0, middle_square = 0, through = 0;
+  for (int i = 0; i < 2 * patch; ++i) energy += r[i] * in[i];
+  for (int i = 0; i < dim; ++i) {
+    const double here = in[i], there = in[patch + i], edge = in[2 * patch + matrix + i];
+    square += std::pow(here - there, 2);
+    middle_square += std::pow((here + there) / 2, 2);
+    through += ((here + there) / 2 - edge) * at.normal[i];
+  }
+  const double h = trace_size, slow = 0.1 * flow.viscosity / (flow.density * h);
+  const double phi = flow.viscosity +
+                     h * flow.density / 6 * middle_square / std::sqrt(middle_square + slow * slow) +
+                     h * h / 12 * flow.density / (theta * time_step);
+  // rho/2 <|m| [v] - m (v_0 + v_1), [v]>: the second part is what convection gives on both sides.
+  double convected = 0;
+  for (int i = 0; i < dim; ++i) convected += (in[i] + in[patch + i]) * (in[i] - in[patch + i]);
+  const double upwind = flow.density / 2 * (std::abs(through) * square - through * convected);
+  CHECK(energy == Approx(20 * phi / h * square + upwind).epsilon(1e-12));
+}
+
+TEST_CASE("vorticity, kinetic energy and what passes to a patch have their signs and factors") {
+  const OnePoint at(2);
+  double value = 0;
+  // A rotation about z by 1.5 1/s: v = 1.5 (-y, x).
+  const std::vector<double> turning{0, -1.5, 1.5, 0};
+  make_quantity(Vorticity{})->evaluate(at.batch(turning), &value, nullptr);
+  CHECK(value == Approx(3));
+  const std::vector<double> velocity{3, 4};
+  make_quantity(KineticEnergy{1.7})->evaluate(at.batch(velocity), &value, nullptr);
+  CHECK(value == Approx(0.5 * 1.7 * 25));
+  const std::vector<double> along_with_edge{3, 4, 3, 4}, resting_edge{3, 4, 0, 0};
+  make_quantity(FluidTransfer{})->evaluate(at.batch(along_with_edge), &value, nullptr);
+  CHECK(value == Approx(0).margin(1e-14));
+  make_quantity(FluidTransfer{})->evaluate(at.batch(resting_edge), &value, nullptr);
+  CHECK(value == Approx(3 * 0.6 + 4 * 0.8));
+}

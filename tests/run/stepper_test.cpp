@@ -53,6 +53,20 @@ TEST_CASE("steps end exactly at the kinks of loads and return to their grid") {
   CHECK(taken[10] == Approx(0.8));
 }
 
+TEST_CASE("kinks are found within conditions, sums and functions; not where only something is recorded") {
+  const Folder folder;
+  std::string text =
+      scene("2*t < 0.5 ? 0 : (0.59 > t - x*0 ? max(0, t - 0.63) : abs(t - 0.85) + 0*min(x, t))",
+            "{end: 1, step: {initial: 0.1}}");
+  text.replace(text.find("fields: false"), 13, "fields: false, formulas: {begun: t < 0.123}");
+  const Result result = run(folder, folder.file("s.yaml", text), "r");
+  INFO(result.output);
+  REQUIRE(result.code == 0);
+  const std::vector<double> taken = times(folder, "r");
+  for (const double kink : {0.25, 0.59, 0.63, 0.85}) CHECK(contains(taken, kink));
+  CHECK(taken.size() == 15);
+}
+
 TEST_CASE("what is left before the end is no step of its own where it is next to nothing") {
   const Folder folder;
   const auto taken = [&](const std::string& end) {

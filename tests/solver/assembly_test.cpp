@@ -107,3 +107,26 @@ TEST_CASE("two conditions on the same unknown are reported with both places") {
                         std::make_unique<Twice>()),
       Catch::Contains("scene.yaml:3:5") && Catch::Contains("scene.yaml:7:5"));
 }
+
+TEST_CASE("the rounding of a residual is the root of the sum of the squares of what its unknowns round to") {
+  auto problem = test::diffusion_problem(CellType::quadrilateral, 4, {});
+  problem->finish();
+  problem->initialise(0);
+  Block& block = problem->fields()[0].field->blocks()[0];
+  Assembler& assembler = problem->assembler();
+  std::vector<double> value(static_cast<std::size_t>(assembler.matrix().rows), 0.0);
+  for (int node = 0; node < block.space->nodes(); ++node) {
+    block.now.value[node] = 3 + std::sin(1.7 * node);
+    const int row = assembler.row(*problem->fields()[0].field, 0, node, 0);
+    if (row >= 0) value.at(row) = block.now.value[node];
+  }
+  assembler.assemble(time_point(1, 0, 1), true);
+  const std::vector<double> rounding = assembler.rounding();
+  const Matrix& a = assembler.matrix();
+  for (int r = 0; r < a.rows; ++r) {
+    double square = 0;
+    for (std::size_t k = a.row_start[r]; k < a.row_start[r + 1]; ++k)
+      square += std::pow(a.value[k] * value[a.column[k]] * std::numeric_limits<double>::epsilon(), 2);
+    CHECK(rounding[r] == Approx(std::sqrt(square)).epsilon(1e-12));
+  }
+}

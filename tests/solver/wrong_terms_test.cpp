@@ -78,6 +78,22 @@ class OneTerm final : public Physics {
   }
 };
 
+/// Cells whose points follow more facets than the core makes room for.
+class ManyMovers final : public IntegrationDomain {
+ public:
+  ManyMovers(Field& field, int movers) : field_(field), movers_(static_cast<std::size_t>(movers), {0, "c"}) {}
+  [[nodiscard]] int size() const override { return 0; }
+  [[nodiscard]] std::vector<Field*> fields() const override { return {&field_}; }
+  void fill(int, Element&) const override {}
+  [[nodiscard]] const int* nodes(int, int, int) const override { return nullptr; }
+  [[nodiscard]] std::string description() const override { return "a strange domain"; }
+  [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
+
+ private:
+  Field& field_;
+  std::vector<Operand> movers_;
+};
+
 template <class Kernel>
 std::unique_ptr<Problem> problem_of() {
   auto problem = std::make_unique<Problem>(Communicator());
@@ -134,4 +150,12 @@ TEST_CASE("a term that depends on a rate of an unknown without is refused; one t
                     Catch::Contains("it depends on a rate of 'c', which has none"));
   CHECK_NOTHROW(problem_of<WithRate<0>>());
   CHECK_NOTHROW(problem_of<NotAtHome>());
+}
+
+TEST_CASE("points that move with more facets than there is room for are refused") {
+  const auto problem = problem_of<WithRate<0>>();
+  Field& field = *problem->fields()[0].field;
+  CHECK_NOTHROW(ElementEvaluator(ManyMovers(field, 9), {}));  // in the plane a facet moves by 4 numbers
+  CHECK_THROWS_WITH(ElementEvaluator(ManyMovers(field, 10), {}),
+                    Catch::Contains("the points of a strange domain move with 10 facets; 9 at most"));
 }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // seam check: all that a run does before its first step, so that what a run would refuse is refused here.
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <cstdio>
 #include <memory>
 
+#include "check_report.hpp"
 #include "command.hpp"
 #include "seam/run/simulation.hpp"
 #include "session.hpp"
@@ -17,26 +18,20 @@ struct Options {
   std::string scene;
   std::vector<std::string> set;
   bool without_meshes = false;
+  bool json = false;
 };
 
-void print_contents(Simulation& simulation) {
-  for (const FieldEntry& entry : simulation.problem().fields()) {
-    const MeshData& mesh = entry.mesh->whole();
-    std::vector<std::string> unknowns;
-    for (const Unknown& unknown : entry.field->unknowns())
-      unknowns.push_back(fmt::format("{} ({})", unknown.name, unknown.unit.empty() ? "-" : unknown.unit));
-    fmt::print("field {}: {}; mesh {} of {} {} cells of order {}, {} nodes\n", entry.name,
-               fmt::join(unknowns, ", "), entry.mesh->name(), mesh.cell_count(), seam::name(mesh.type),
-               mesh.order, mesh.node_count());
-  }
-  fmt::print("recorded at each step: {}\n", fmt::join(simulation.results().names(), ", "));
-  fmt::print("{} unknowns\n", simulation.unknowns());
-}
+struct Outcome {
+  nlohmann::json contents = nlohmann::json::object();
+  std::string messages;  ///< a line each
+  int code = ok;
+};
 
-int run(const Options& options, bool is_root) {
+Outcome check(const Options& options) {
   Registry registry = builtin_types();
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(options.scene, parse_overrides(options.set), host, registry);
+  Outcome outcome;
   Diagnostics warnings = scene.warnings;
   if (!options.without_meshes) {
     Simulation simulation(scene, registry, Communicator());
@@ -44,11 +39,48 @@ int run(const Options& options, bool is_root) {
     simulation.require_held();
     simulation.find_conflicts();
     warnings = simulation.warnings();
-    if (is_root) print_contents(simulation);
+    outcome.contents = describe_contents(scene, registry, simulation);
   }
-  if (is_root && !warnings.all().empty()) fmt::print(stderr, "{}\n", warnings.text());
-  if (is_root) fmt::print("{}: ok\n", options.scene);
+  if (!warnings.all().empty()) outcome.messages = warnings.text();
+  return outcome;
+}
+
+int print(const Options& options, const Outcome& outcome) {
+  const std::string contents = outcome.contents.empty() ? std::string() : contents_as_text(outcome.contents);
+  fmt::print("{}", contents);
+  if (!outcome.messages.empty()) fmt::print(stderr, "{}\n", outcome.messages);
+  fmt::print("{}: ok\n", options.scene);
   return ok;
+}
+
+/// For programs: one object, also for a scene that is refused.
+int print_json(const Options& options) {
+  Outcome outcome;
+  try {
+    outcome = check(options);
+  } catch (...) {
+    const Failure failure = current_failure();
+    outcome.code = failure.code;
+    outcome.messages = failure.message;
+  }
+  nlohmann::json all = outcome.contents;
+  all["scene"] = options.scene;
+  all["ok"] = outcome.code == ok;
+  all["exit_code"] = outcome.code;
+  all["diagnostics"] = diagnostics_as_json(outcome.messages);
+  // What is no UTF-8 in a message is replaced: it is text of a file.
+  fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return outcome.code;
+}
+
+int run(const Options& options, bool is_root) {
+  if (options.json) {
+    if (Communicator().size() > 1)
+      throw Error("error: --json is for one process; start `seam check` without mpirun");
+    return print_json(options);
+  }
+  const Outcome outcome = check(options);
+  return is_root ? print(options, outcome) : ok;
 }
 
 }  // namespace
@@ -60,6 +92,7 @@ Command check_command(CLI::App& parent) {
   app->add_option("scene", options->scene, "YAML file")->required();
   app->add_option("--set", options->set, "replace a value: key.key=value; may be repeated")->take_all();
   app->add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
+  app->add_flag("--json", options->json, "what is found as JSON, for editors and continuous integration");
   return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "seam/assembly/limits.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/term/term_name.hpp"
 
@@ -22,7 +23,7 @@ int rate_order(Level level) {
 bool depends_on(const Term& term, int dim, std::size_t first, std::size_t count) {
   const Signature& signature = term.signature(dim);
   const std::vector<double> place{0.21, 0.13, 0.34}, normal{0.36, 0.48, 0.8}, one{1.0};
-  const double factors[32][3] = {};
+  const double factors[most_operands][3] = {};
   // Away from zero, and small enough for a deformation.
   std::vector<double> inputs(static_cast<std::size_t>(signature.input_size(dim)));
   for (std::size_t i = 0; i < inputs.size(); ++i) inputs[i] = 0.05 + 0.01 * static_cast<double>(i % 7);
@@ -88,6 +89,10 @@ void check_binding(const BoundTerm& bound, const IntegrationDomain& domain) {
     throw PluginFault(bound.where, fmt::format("{}: its kernel speaks of {} unknowns, but {} were given",
                                                describe(bound, domain), signature.components.size(),
                                                bound.operands.size()));
+  if (signature.components.size() > most_operands)
+    throw PluginFault(bound.where,
+                      fmt::format("{}: its kernel speaks of {} unknowns; {} at most are possible",
+                                  describe(bound, domain), signature.components.size(), most_operands));
   // A field may give all its unknowns to each of its terms; the same one twice is a slip.
   for (std::size_t k = signature.components.size(); k < bound.operands.size(); ++k)
     for (std::size_t other = 0; other < k; ++other)

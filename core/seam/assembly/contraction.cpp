@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "seam/assembly/limits.hpp"
+
 // The sanitizers' run-time resolvers do not work with function versions.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define SEAM_VERSIONS __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
@@ -95,7 +97,6 @@ int size(const std::vector<SlotOperator>& slots) {
 }  // namespace
 
 SEAM_VERSIONS void contract(const Contraction& work, std::vector<double>& scratch) {
-  constexpr int most_columns = 256;
   Column column[most_columns];
   int columns = 0;
   for (const SlotOperator& slot : work.columns)

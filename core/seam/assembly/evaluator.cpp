@@ -8,6 +8,8 @@
 #include <new>
 
 #include "seam/assembly/binding.hpp"
+#include "seam/assembly/limits.hpp"
+#include "seam/assembly/steady_part.hpp"
 #include "seam/base/plugin_fault.hpp"
 
 namespace seam {
@@ -36,8 +38,9 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
     Compiled compiled{bound, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
-    if (compiled.columns > 256)
-      throw PluginFault(bound.where, describe(bound, domain) + " reads more than 256 numbers per point");
+    if (compiled.columns > most_columns)
+      throw PluginFault(bound.where, fmt::format("{} reads {} numbers at a point; {} at most are possible",
+                                                 describe(bound, domain), compiled.columns, most_columns));
     for (std::size_t k = 0; k < s.components.size(); ++k) {
       const Operand& operand = bound.operands[k];
       const Field::Place place = domain.fields().at(operand.side)->place(operand.unknown);
@@ -72,6 +75,11 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
       movers_.push_back({add_part(body, mover), body.place(mover.unknown).offset});
     }
   moves_ = static_cast<int>(movers_.size()) * dim_ * dim_;
+  if (moves_ > most_moves)
+    throw PluginFault(
+        terms.empty() ? Location() : terms.front().where,
+        fmt::format("the points of {}{} move with {} facets; {} at most are possible", domain.description(),
+                    plugin_of(domain), movers_.size(), most_moves / (dim_ * dim_)));
   for (Part& part : parts_) {
     part.offset = size_;
     size_ += part.stride * part.components;
@@ -121,9 +129,6 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
 }
 
 void ElementEvaluator::add_change_to_magnitude() {
-  // Where a flow is steady nothing changes, and a unidirectional one has div v = 0 at every point: equations
-  // would be measured by their own rounding error.
-  constexpr double steady_part = 1e-6;
   change_.assign(size_, 0.0);
   for (const Part& part : parts_) {
     const int* nodes = element_.sides[part.side].nodes[part.block];
@@ -244,7 +249,6 @@ void ElementEvaluator::compute_inputs(const Compiled& term) {
 }
 
 void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool with_tangent) {
-  constexpr int most_operands = 32;
   double factors[most_operands][3];
   for (std::size_t k = 0; k < term.operands.size(); ++k) {
     const BoundOperand& operand = term.operands[k];

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How integrals over a surface that moves with a body change with the body's nodes.
 #include "seam/assembly/evaluator.hpp"
+#include "seam/assembly/limits.hpp"
 
 namespace seam {
-
-namespace {
-constexpr int most_moves = 36;  ///< of four facets in space
-}
 
 /// Derivatives of the physical gradient G = D J^-1 (D: reference gradient, J: the map's Jacobian):
 /// dG = (dD - G dJ) J^-1.

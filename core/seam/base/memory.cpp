@@ -36,4 +36,10 @@ std::string describe_lack_of_memory(const std::string& what) {
   return text + "; take a coarser mesh, a lower order, more processes or another machine";
 }
 
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
 }  // namespace seam

@@ -20,6 +20,9 @@ class OutOfMemory : public Error {
 /// limits. @param what is being done or built, "the mesh 'box'"
 std::string describe_lack_of_memory(const std::string& what);
 
+/// Largest resident memory of this process so far, bytes.
+double peak_memory();
+
 /// Calls `work`; where it lacks memory, says for what. @param where in the scene
 template <class Work>
 auto needing_memory(const std::string& what, const Location& where, Work&& work) {

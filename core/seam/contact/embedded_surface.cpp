@@ -17,7 +17,7 @@ using namespace cutting;
 
 namespace {
 
-constexpr double hair = 1e-9;  ///< share of a facet that is rounding
+constexpr double rounding = 1e-9;  ///< of shares of a facet
 
 /// Appends rows of `width` numbers, widened by zeros.
 void append_rows(const double* from, std::size_t rows, std::size_t width, std::size_t wide,
@@ -44,7 +44,7 @@ std::vector<std::pair<double, double>> rest(std::vector<std::pair<double, double
   double reached = 0;
   wet.emplace_back(1, 1);
   for (const auto& [from, to] : wet) {
-    if (from - reached > hair) result.emplace_back(reached, from);
+    if (from - reached > rounding) result.emplace_back(reached, from);
     reached = std::max(reached, to);
   }
   return result;
@@ -189,7 +189,7 @@ OppositePoints::Stretch EmbeddedSurface::stretch_at(int facet, const double* spa
                                                     const OppositePoints& opposite) {
   const auto end_at = [&](double share) {
     const auto found = std::ranges::find_if(
-        inner, [&](const OppositePoints::Break& b) { return std::abs(b.share - share) < hair; });
+        inner, [&](const OppositePoints::Break& b) { return std::abs(b.share - share) < rounding; });
     return found != inner.end() ? *found : opposite.end_at(facet, share);
   };
   return {end_at(span[0]), end_at(span[1])};
@@ -290,7 +290,7 @@ void EmbeddedSurface::find_closed(int facet, const std::vector<Wet>& wet, const 
   // they stand for all that is not wet.
   double left = area / 2;
   for (const Wet& w : wet) left -= w.area;
-  if (left <= hair * area) return;
+  if (left <= rounding * area) return;
   const bool all = wet.empty();
   const auto first = static_cast<std::ptrdiff_t>(points.size());
   double sum = 0;

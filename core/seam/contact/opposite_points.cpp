@@ -120,11 +120,13 @@ std::vector<OppositePoints::Stretch> OppositePoints::stretches(int facet, double
 }
 
 OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
-  constexpr double hair = 1e-6;  // of the facet's length: the cut's lattice is much finer
-  if (share < hair || share > 1 - hair) return {share};
+  // Of the facet's length, so near an end is at a corner or on another facet: the cut's lattice is much
+  // finer.
+  constexpr double nearness = 1e-6;
+  if (share < nearness || share > 1 - nearness) return {share};
   const std::array<Vector, 3> own = own_vertices(facet);
   const Vector along = own[1] - own[0], x = own[0] + share * along, direction = normal(facet);
-  const double reach = hair * std::sqrt(dot(along, along));
+  const double reach = nearness * std::sqrt(dot(along, along));
   const Vector margin{reach, reach, 0}, low = x - margin, high = x + margin;
   // One that faces this facet before one that meets it at an angle.
   for (const double* facing : {direction.data(), static_cast<const double*>(nullptr)}) {
@@ -136,7 +138,8 @@ OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
       const double length = std::sqrt(dot(edge, edge)), there = dot(way, edge) / (length * length);
       const double height = (way[0] * edge[1] - way[1] * edge[0]) / length;
       const bool is_itself = is_itself_ && is_own_neighbourhood(facet, other);
-      if (!is_itself && std::abs(height) < reach && there > -hair && there < 1 + hair) return {share, other};
+      if (!is_itself && std::abs(height) < reach && there > -nearness && there < 1 + nearness)
+        return {share, other};
     }
   }
   return {share};

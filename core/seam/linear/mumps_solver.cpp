@@ -203,6 +203,11 @@ void MumpsSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&,
   std::copy_n(all.begin() + a.first_row, a.rows, x.begin());
 }
 
+MumpsSolver::Effort MumpsSolver::estimate(const Matrix& a) {
+  if (instance_->pattern_version != a.pattern_version) analyse(a);
+  return {1e6 * instance_->info(17), instance_->mumps.rinfog[0]};
+}
+
 void MumpsSolver::forget() { instance_->factorised = false; }
 
 void MumpsSolver::remember_unknowns(const Matrix& a) {

@@ -56,7 +56,7 @@ class Mesh {
   /// Faces of owned cells with nothing behind them, named or not. Built at the first call.
   [[nodiscard]] const std::vector<CellFace>& outer_faces() const;
 
-  /// The undistributed mesh, kept until every space is built on this one.
+  /// The undistributed mesh, kept for as long as the mesh: surfaces and spaces read it.
   [[nodiscard]] const MeshData& whole() const { return *whole_; }
   [[nodiscard]] const std::vector<int>& owner_of_global_cell() const { return owner_of_global_cell_; }
 

@@ -124,10 +124,9 @@ std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, co
   return sum;
 }
 
-std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity,
+std::vector<double> cell_integral(const CellDomain& cells, const NamedQuantity& quantity,
                                   const TimePoint& at) {
-  const CellDomain cells(*entry.field, 2 * entry.field->order());
-  return integrate(cells, quantity, at, entry.field->mesh().communicator());
+  return integrate(cells, quantity, at, cells.fields().front()->mesh().communicator());
 }
 
 std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,

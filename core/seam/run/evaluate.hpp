@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "seam/assembly/domains.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/solve/problem.hpp"
 
@@ -24,8 +25,8 @@ NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name);
 std::vector<double> nodal_values(const FieldEntry& entry, const Space& space, const NamedQuantity& quantity,
                                  const TimePoint& at);
 
-/// Integral of each component over the field's cells. Collective.
-std::vector<double> cell_integral(const FieldEntry& entry, const NamedQuantity& quantity,
+/// Integral of each component over the cells of the domain's field. Collective.
+std::vector<double> cell_integral(const CellDomain& cells, const NamedQuantity& quantity,
                                   const TimePoint& at);
 /// Integral of each component over boundaries, in the reference configuration. Collective.
 std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,

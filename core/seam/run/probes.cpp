@@ -109,9 +109,11 @@ void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
         interface_measure(measure, at, problem.communicator()));
   for (const FieldEntry& entry : problem.fields()) {
     if (entry.cut) results.series[entry.name + ".dropped_volume"].push_back(entry.cut->dropped_volume());
+    if (entry.integrals.empty()) continue;
+    const CellDomain cells(*entry.field, 2 * entry.field->order());
     for (const FieldQuantity& integral : entry.integrals) {
       const int components = integral.terms.front().term->signature(entry.mesh->dimension()).values;
-      const auto values = cell_integral(entry, {integral.terms, components}, at);
+      const auto values = cell_integral(cells, {integral.terms, components}, at);
       results.series[entry.name + "." + integral.name].push_back(values.at(0));
     }
   }

@@ -345,7 +345,9 @@ void Simulation::prepare() {
 
 void Simulation::require_held() {
   const double step = stepper_.is_static() ? 0 : stepper_.initial();
+  const Stopwatch watch;
   problem_.assembler().assemble(time_point(stepper_.start(), step, stepper_.theta()), true);
+  assembly_seconds_ = watch.seconds();
   const std::string free = describe_free_modes(problem_, no_resistance);
   if (!free.empty()) throw Error(scene_.root.where("fields"), free);
   problem_.check_levels();

@@ -12,6 +12,7 @@
 #include "seam/base/stopwatch.hpp"
 #include "seam/linear/linear_solver.hpp"
 #include "seam/run/checks.hpp"
+#include "seam/run/cost_estimate.hpp"
 #include "seam/run/cut_output.hpp"
 #include "seam/run/field_output.hpp"
 #include "seam/run/interface_output.hpp"
@@ -63,6 +64,8 @@ class Simulation {
   /// After prepare().
   /// @throws Error naming the fields that can change without resistance. Collective.
   void require_held();
+  /// What a step will cost. After require_held(). Collective.
+  [[nodiscard]] CostEstimate estimate() { return estimate_cost(problem_, *linear_, assembly_seconds_); }
   /// Adds what only the built problem shows to warnings(). Collective.
   void find_conflicts();
   /// Of what is legal but hardly meant.
@@ -146,6 +149,7 @@ class Simulation {
   std::vector<NewtonReport> reports_;  ///< of all steps, those that were rewound among them
   Stopwatch run_watch_, restart_watch_;
   bool names_checked_ = false;
+  double assembly_seconds_ = 0;  ///< of the first system with its tangent
   Timings timings_;
   TimePoint last_point_;   ///< of the last good state
   long last_fields_ = -1;  ///< step number of the fields written last

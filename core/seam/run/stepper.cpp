@@ -57,7 +57,7 @@ Stepper::Stepper(const Scene& scene) {
     throw Error(p.where("end"), fmt::format("the end {} does not come after the start {}", end_, start_));
   initial_ = maximum_ = end_ - start_;
   minimum_ = 1e-6 * initial_;
-  const TimeUse use = find_time_use(scene);
+  const TimeUse use = find_time_use(scene, start_, end_);
   depends_on_time_ = use.any;
   kinks_.clear();
   for (const double kink : use.kinks)

@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Trilinos_version.h>
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <sys/utsname.h>
 
 #include <nlohmann/json.hpp>
 
 #include "seam/base/checksum.hpp"
+#include "seam/base/memory.hpp"
 #include "seam/plugin/fingerprint.hpp"
 #include "seam/run/simulation.hpp"
 
 namespace seam {
 namespace {
-
-/// Largest resident memory of this process so far, bytes.
-double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 nlohmann::json machine() {
   utsname name{};

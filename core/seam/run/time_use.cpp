@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <functional>
 #include <string>
@@ -50,36 +51,95 @@ std::string operand(const std::string& text, std::size_t at, int step) {
   return result;
 }
 
-/// What t at position `at` is compared with, or its companion in min or max; "" for neither.
-std::string companion(const std::string& text, std::size_t at) {
-  std::size_t after = at + 1;
-  while (after < text.size() && text[after] == ' ') ++after;
-  if (after < text.size() && (text[after] == '<' || text[after] == '>')) {
-    const bool equal = after + 1 < text.size() && text[after + 1] == '=';
-    return operand(text, after + (equal ? 2 : 1), +1);
-  }
-  std::size_t before = at;
-  while (before > 0 && text[before - 1] == ' ') --before;
-  if (before > 0 && text[before - 1] == '=') --before;
-  if (before > 0 && (text[before - 1] == '<' || text[before - 1] == '>'))
-    return operand(text, before - 1, -1);
-  const bool in_extremum =
-      before >= 4 && text[before - 1] == '(' &&
-      (text.compare(before - 4, 3, "min") == 0 || text.compare(before - 4, 3, "max") == 0);
-  if (in_extremum && after < text.size() && text[after] == ',') return operand(text, after + 1, +1);
-  return "";
+/// Whether t occurs as a name.
+bool speaks_of_time(const std::string& text) {
+  for (std::size_t at = text.find('t'); at != std::string::npos; at = text.find('t', at + 1))
+    if ((at == 0 || !is_name(text[at - 1])) && (at + 1 == text.size() || !is_name(text[at + 1]))) return true;
+  return false;
 }
 
-void examine(const std::string& text, const std::map<std::string, double>& parameters, TimeUse& use) {
+/// The arguments of a function whose parenthesis opens at position `at`.
+std::vector<std::string> arguments(const std::string& text, std::size_t at) {
+  std::vector<std::string> result;
+  do {
+    result.push_back(operand(text, at + 1, +1));
+    at += 1 + result.back().size();
+  } while (at < text.size() && text[at] == ',');
+  return result;
+}
+
+/// Two numbers between which an expression changes its form when they become equal.
+struct Condition {
+  std::string left, right;
+};
+
+/// Those of an expression: what is compared, wherever it stands; the arguments of min and max; that of abs
+/// and sign with 0.
+std::vector<Condition> conditions(const std::string& text) {
+  std::vector<Condition> result;
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool alone = text[at] == 't' && (at == 0 || !is_name(text[at - 1])) &&
-                       (at + 1 == text.size() || !is_name(text[at + 1]));
-    if (!alone) continue;
-    use.any = true;
-    const std::string other = companion(text, at);
-    if (other.empty()) continue;
+    if (text[at] == '<' || text[at] == '>') {
+      const bool equal = at + 1 < text.size() && text[at + 1] == '=';
+      result.push_back({operand(text, at, -1), operand(text, at + (equal ? 2 : 1), +1)});
+    }
+    if (text[at] != '(') continue;
+    std::size_t begin = at;
+    while (begin > 0 && is_name(text[begin - 1])) --begin;
+    const std::string name = text.substr(begin, at - begin);
+    const bool is_extremum = name == "min" || name == "max";
+    if (!is_extremum && name != "abs" && name != "sign") continue;
+    const std::vector<std::string> given = arguments(text, at);
+    if (!is_extremum) result.push_back({given.front(), "0"});
+    for (std::size_t a = 0; is_extremum && a < given.size(); ++a)
+      for (std::size_t b = a + 1; b < given.size(); ++b) result.push_back({given[a], given[b]});
+  }
+  return result;
+}
+
+bool is_t_alone(std::string text) {
+  std::erase(text, ' ');
+  return text == "t";
+}
+
+/// Appends the times within (from, to) at which a difference changes its sign, where it depends on the time
+/// alone. What happens between two of `samples` times is not seen.
+void find_zeros(const Expression& difference, double from, double to, std::vector<double>& zeros) {
+  constexpr int samples = 1000;
+  constexpr std::array here{0.37, -0.21, 0.11}, there{-1.3, 2.7, 0.9};
+  const auto value = [&](double t) { return difference(here.data(), 3, t); };
+  double before = from, value_before = value(from);
+  for (int k = 1; k <= samples; ++k) {
+    const double time = from + (to - from) * k / samples, now = value(time);
+    const double elsewhere = difference(there.data(), 3, time);
+    if (now < elsewhere || now > elsewhere) return;
+    double low = before, high = time;
+    if (now == 0 && time < to) zeros.push_back(time);
+    for (bool crosses = value_before * now < 0; crosses;) {
+      const double middle = low + 0.5 * (high - low);
+      if (middle <= low || middle >= high) {
+        zeros.push_back(high);
+        break;
+      }
+      const double at_middle = value(middle);
+      (at_middle * value_before > 0 ? low : high) = middle;
+    }
+    before = time;
+    value_before = now;
+  }
+}
+
+void examine(const std::string& text, const std::map<std::string, double>& parameters, TimeUse& use,
+             double from, double to) {
+  for (const auto& [left, right] : conditions(text)) {
+    if (!speaks_of_time(left) && !speaks_of_time(right)) continue;
     try {
-      use.kinks.push_back(evaluate_constant(other, parameters));
+      // What t itself is compared with is the time, to the bit.
+      if (is_t_alone(left) && !speaks_of_time(right))
+        use.kinks.push_back(evaluate_constant(right, parameters));
+      else if (is_t_alone(right) && !speaks_of_time(left))
+        use.kinks.push_back(evaluate_constant(left, parameters));
+      else
+        find_zeros(Expression("(" + left + ")-(" + right + ")", parameters), from, to, use.kinks);
     } catch (const Error&) {
       // It depends on the position, or the text is no expression: then there is no single time.
     }
@@ -88,18 +148,22 @@ void examine(const std::string& text, const std::map<std::string, double>& param
 
 }  // namespace
 
-TimeUse find_time_use(const Scene& scene) {
+TimeUse find_time_use(const Scene& scene, double from, double to) {
   TimeUse use;
+  // What is recorded does not act.
+  const auto look_at = [&](const std::string& path, const std::string& text) {
+    use.any = use.any || speaks_of_time(text);
+    if (!path.starts_with("output.")) examine(text, scene.parameters, use, from, to);
+  };
   const auto replaced = [&](const std::string& path) {
     return std::any_of(scene.overrides.begin(), scene.overrides.end(),
                        [&](const auto& entry) { return path.starts_with(entry.first + "."); });
   };
   visit_scalars(YAML::Load(scene.text), "", [&](const std::string& path, const std::string& text) {
-    if (!replaced(path)) examine(text, scene.parameters, use);
+    if (!replaced(path)) look_at(path, text);
   });
   for (const auto& entry : scene.overrides)
-    visit_scalars(YAML::Load(entry.second), "",
-                  [&](const std::string&, const std::string& text) { examine(text, scene.parameters, use); });
+    visit_scalars(YAML::Load(entry.second), entry.first + ".", look_at);
   std::sort(use.kinks.begin(), use.kinks.end());
   use.kinks.erase(std::unique(use.kinks.begin(), use.kinks.end()), use.kinks.end());
   return use;

@@ -14,7 +14,7 @@
 namespace seam {
 namespace {
 
-/// Labels of the parts that reach an open boundary, on every rank.
+/// Labels of the parts that reach an open boundary on this rank.
 std::vector<int> open_parts(const Field& field, int block, const ConnectedNodes& label,
                             const std::vector<std::string>& boundaries) {
   // In widths of a cell: a body that ends less than that short of a boundary covers it, too.
@@ -34,9 +34,16 @@ std::vector<int> open_parts(const Field& field, int block, const ConnectedNodes&
         open.push_back(label[field.cell_nodes(block, face.cell, p)[0]]);
       }
     }
-  std::sort(open.begin(), open.end());
-  open.erase(std::unique(open.begin(), open.end()), open.end());
-  return mesh.communicator().gather_all(open);
+  return open;
+}
+
+/// Labels of the parts where the scene prescribes the unknown at a node, which gives the level.
+std::vector<int> prescribed_parts(const Block& block, int component, const ConnectedNodes& label) {
+  std::vector<int> parts;
+  for (int node = 0; node < block.space->owned_nodes(); ++node)
+    if (block.active[node] && block.prescribed[static_cast<std::size_t>(node) * block.size + component])
+      parts.push_back(label[node]);
+  return parts;
 }
 
 /// The node that holds each closed part, by label.
@@ -80,7 +87,11 @@ void place_levels(FieldEntry& entry) {
     for (const int node : level.nodes) block.prescribed[unknown_of(node)] = 0;
     level.nodes.clear();
     const ConnectedNodes label(field, level.block);
-    const std::vector<int> open = open_parts(field, level.block, label, level.open_boundaries);
+    std::vector<int> open = open_parts(field, level.block, label, level.open_boundaries);
+    for (const int part : prescribed_parts(block, level.component, label)) open.push_back(part);
+    std::sort(open.begin(), open.end());
+    open.erase(std::unique(open.begin(), open.end()), open.end());
+    open = field.mesh().communicator().gather_all(open);
     for (const auto& [part, global] : choose_nodes(field, level.block, label, open)) {
       const int node = block.space->local_node(global);
       if (node < 0) continue;

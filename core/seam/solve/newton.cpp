@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/assembly/steady_part.hpp"
 #include "seam/base/stopwatch.hpp"
 
 namespace seam {
@@ -15,8 +16,6 @@ namespace {
 constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
 /// In rounding errors of the residual: forces below that are none. A strain of 1e-10 has larger ones.
 constexpr double nothing_acts = 1e6;
-/// Part of a value that counts as its change in the step: in a steady state increments are noise.
-constexpr double steady_part = 1e-6;
 /// Iterations in which unknowns may come and go; then they may only come, lest a step cycle between two sets
 /// of them (thesis 6.3.2).
 constexpr int free_iterations = 3;

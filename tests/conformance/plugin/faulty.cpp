@@ -50,6 +50,16 @@ struct Radiation {
   }
 };
 
+/// Speaks of one unknown more than there is room for.
+struct Crowd {
+  using Reads = Slots<Value<Scalar<32>>>;
+  using Tests = Slots<Value<Scalar<32>>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(Scalar<32>{}) += s.value(Scalar<32>{});
+  }
+};
+
 template <int count>
 struct Numbers {
   using Reads = Slots<Value<Temperature>>;
@@ -83,6 +93,7 @@ class Faulty final : public Physics {
     std::vector<std::string> operands{"temperature"};
     if (how_ == "few operands") operands = {};
     if (how_ == "many operands") operands = {"temperature", "temperature"};
+    if (how_ == "crowd") setup.add_cell_term(make_term(Crowd{}), std::vector<std::string>(33, "temperature"));
     if (how_ == "unknown operand") operands = {"temprature"};
     if (how_ == "null term") setup.add_cell_term(nullptr, operands);
     if (how_ == "null quantity") setup.add_output("heat", nullptr, operands);

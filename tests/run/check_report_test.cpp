@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What `seam check` says of a scene: units of what will be recorded, costs, all of it as JSON.
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "cli/run_command.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+std::string config(const std::string& name) { return SEAM_SOURCE_DIR "/configs/" + name + ".yaml"; }
+
+/// Units by the names of series; "?" where there is none.
+std::map<std::string, std::string> units(const nlohmann::json& report) {
+  std::map<std::string, std::string> result;
+  for (const auto& series : report["recorded"])
+    result[series["name"]] = series["unit"].is_null() ? "?" : series["unit"].get<std::string>();
+  return result;
+}
+
+nlohmann::json check(const std::string& arguments) {
+  return nlohmann::json::parse(seam("check --json " + arguments).output);
+}
+
+}  // namespace
+
+TEST_CASE("check tells the units of what will be recorded") {
+  const auto stamp = units(check(config("contact/falling_stamp")));
+  CHECK(stamp.at("tip") == "m");                   // a probe at a point
+  CHECK(stamp.at("left") == "m^2/s");              // one of a velocity over a boundary
+  CHECK(stamp.at("stamp.mismatch") == "m^1.5/s");  // of a coupling
+  CHECK(stamp.at("water.dissipation") == "W");     // of a field
+  CHECK(stamp.at("water.volume") == "m^2");
+  CHECK(stamp.at("missing") == "?");  // a formula
+  const auto sphere = units(check(config("fluid/sphere")));
+  CHECK(sphere.at("drag") == "N");
+  CHECK(sphere.at("outflow") == "m^3/s");
+}
+
+TEST_CASE("check estimates memory and the seconds of a step") {
+  const std::string scene = config("fluid/vortices");
+  const nlohmann::json coarse = check(scene), fine = check(scene + " --set parameters.n=64");
+  // Of a run in this build: within what a busy machine does to it.
+  const Folder folder;
+  REQUIRE(seam("run " + scene + " --quiet --no-picture --set parameters.n=64 --folder " +
+               (folder.path / "r").string())
+              .code == 0);
+  const auto run = nlohmann::json::parse(folder.read("r/summary.json"));
+  const double bytes = run["peak_memory_bytes"];
+  CHECK(fine["memory_bytes"].get<double>() == Approx(bytes).epsilon(0.3));
+  const double growth = fine["seconds_per_step"].get<double>() / coarse["seconds_per_step"].get<double>();
+  const double unknowns = fine["unknowns"].get<double>() / coarse["unknowns"].get<double>();
+  CHECK(growth > 0.3 * unknowns);
+  CHECK(growth < 10 * unknowns);
+  CHECK(fine["includes_linear_solves"] == true);
+  CHECK(check(scene + " --set solver.linear=krylov")["includes_linear_solves"] == false);
+}
+
+TEST_CASE("check --json holds errors and warnings with their places, and the exit code") {
+  const Folder folder;
+  const std::string file = folder.file("s.yaml",
+                                       "title: a block\ndimension: 2\nplugins: [solid]\n"
+                                       "meshes: {block: {grid: {from: [0, 0], to: [1, 1], cells: [2, 2]}}}\n"
+                                       "fields:\n  block:\n    type: solid\n    mesh: block\n    densty: 1\n"
+                                       "    material: {type: neo_hookean, young: -10, poisson: 0.3}\n");
+  const Result refused = seam("check --json " + file);
+  CHECK(refused.code == 2);
+  const auto report = nlohmann::json::parse(refused.output);
+  CHECK(report["ok"] == false);
+  CHECK(report["exit_code"] == 2);
+  REQUIRE(report["diagnostics"].size() == 2);
+  const auto& first = report["diagnostics"][0];
+  CHECK(first["severity"] == "error");
+  CHECK(first["file"] == file);
+  CHECK(first["line"] == 9);
+  CHECK(first["column"] == 5);
+  CHECK_THAT(first["message"].get<std::string>(), Catch::StartsWith("unknown key 'densty'"));
+  CHECK(report["diagnostics"][1]["line"] == 10);
+}

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "check_report.hpp"
+
+#include <fmt/ranges.h>
+
+#include <regex>
+#include <sstream>
+
+#include "seam/run/series_units.hpp"
+
+namespace seam::cli {
+namespace {
+
+std::string with_unit(const nlohmann::json& named) {
+  const nlohmann::json& unit = named["unit"];
+  const std::string name = named["name"];
+  if (unit.is_null()) return name;
+  return fmt::format("{} [{}]", name, unit.get<std::string>().empty() ? "-" : unit.get<std::string>());
+}
+
+std::string list(const nlohmann::json& named) {
+  std::vector<std::string> all;
+  for (const auto& one : named) all.push_back(with_unit(one));
+  return fmt::format("{}", fmt::join(all, ", "));
+}
+
+}  // namespace
+
+nlohmann::json describe_contents(const Scene& scene, const Registry& registry, Simulation& simulation) {
+  nlohmann::json contents;
+  contents["fields"] = nlohmann::json::array();
+  for (const FieldEntry& entry : simulation.problem().fields()) {
+    const MeshData& mesh = entry.mesh->whole();
+    auto unknowns = nlohmann::json::array();
+    for (const Unknown& unknown : entry.field->unknowns())
+      unknowns.push_back(
+          {{"name", unknown.name}, {"unit", unknown.unit}, {"components", unknown.components}});
+    contents["fields"].push_back({{"name", entry.name},
+                                  {"unknowns", unknowns},
+                                  {"mesh",
+                                   {{"name", entry.mesh->name()},
+                                    {"cells", mesh.cell_count()},
+                                    {"cell", seam::name(mesh.type)},
+                                    {"order", mesh.order},
+                                    {"nodes", mesh.node_count()}}}});
+  }
+  const std::vector<std::string> names = simulation.results().names();
+  const auto units = series_units(scene, registry, simulation.problem(), names);
+  contents["recorded"] = nlohmann::json::array();
+  for (const std::string& name : names) {
+    const auto unit = units.find(name);
+    contents["recorded"].push_back(
+        {{"name", name}, {"unit", unit == units.end() ? nlohmann::json() : nlohmann::json(unit->second)}});
+  }
+  contents["unknowns"] = simulation.unknowns();
+  const CostEstimate cost = simulation.estimate();
+  contents["memory_bytes"] = cost.bytes;
+  contents["seconds_per_step"] = cost.seconds_per_step;
+  contents["includes_linear_solves"] = cost.has_linear;
+  return contents;
+}
+
+std::string contents_as_text(const nlohmann::json& contents) {
+  std::string text;
+  for (const auto& field : contents["fields"]) {
+    const auto& mesh = field["mesh"];
+    text += fmt::format("field {}: {}; mesh {} of {} {} cells of order {}, {} nodes\n",
+                        field["name"].get<std::string>(), list(field["unknowns"]),
+                        mesh["name"].get<std::string>(), mesh["cells"].get<long>(),
+                        mesh["cell"].get<std::string>(), mesh["order"].get<int>(), mesh["nodes"].get<long>());
+  }
+  text += fmt::format("recorded at each step: {}\n", list(contents["recorded"]));
+  const bool all = contents["includes_linear_solves"];
+  text += fmt::format("{} unknowns; about {:.0f} MB and {:.2g} s a step, of {} iterations{}\n",
+                      contents["unknowns"].get<long long>(), contents["memory_bytes"].get<double>() / 1e6,
+                      contents["seconds_per_step"].get<double>(), CostEstimate::iterations,
+                      all ? "" : ", without what the linear solver takes");
+  return text;
+}
+
+nlohmann::json diagnostics_as_json(const std::string& messages) {
+  static const std::regex form(R"((?:(.*?)(?::(\d+))?(?::(\d+))?: )?(error|warning): (.*))");
+  auto all = nlohmann::json::array();
+  std::istringstream lines(messages);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch part;
+    if (!std::regex_match(line, part, form)) {
+      // It goes on with what was said before.
+      if (all.empty()) all.push_back({{"severity", "error"}, {"message", ""}});
+      auto& message = all.back()["message"];
+      message = message.get<std::string>() + (message.get<std::string>().empty() ? "" : "\n") + line;
+      continue;
+    }
+    const auto number = [&](std::size_t k) {
+      return part[k].matched ? nlohmann::json(std::stol(part[k])) : nlohmann::json();
+    };
+    all.push_back({{"severity", part[4].str()},
+                   {"file", part[1].matched ? nlohmann::json(part[1].str()) : nlohmann::json()},
+                   {"line", number(2)},
+                   {"column", number(3)},
+                   {"message", part[5].str()}});
+  }
+  return all;
+}
+
+}  // namespace seam::cli
