@@ -3,8 +3,8 @@
 
 #include <fmt/ranges.h>
 
-#include <regex>
 #include <sstream>
+#include <utility>
 
 #include "seam/run/series_units.hpp"
 
@@ -22,6 +22,37 @@ std::string list(const nlohmann::json& named) {
   std::vector<std::string> all;
   for (const auto& one : named) all.push_back(with_unit(one));
   return fmt::format("{}", fmt::join(all, ", "));
+}
+
+/// Takes a number behind a colon off the end of a place; null where there is none.
+nlohmann::json take_number(std::string& place) {
+  const std::size_t colon = place.find_last_not_of("0123456789");
+  if (colon == std::string::npos || place[colon] != ':' || place.size() - colon > 9 ||
+      colon + 1 == place.size())
+    return {};
+  const long number = std::stol(place.substr(colon + 1));
+  place.erase(colon);
+  return number;
+}
+
+/// "file:line:column: error: message"; null where a line is none of those.
+nlohmann::json one_diagnostic(const std::string& line) {
+  const auto position = [&](const std::string& severity) {
+    return line.starts_with(severity + ": ") ? 0 : line.find(": " + severity + ": ");
+  };
+  const std::string severity = position("warning") < position("error") ? "warning" : "error";
+  if (const std::size_t at = position(severity); at != std::string::npos) {
+    const std::string mark = severity + ": ";
+    std::string place = line.substr(0, at);
+    nlohmann::json last = take_number(place), first = take_number(place);
+    if (first.is_null()) std::swap(first, last);
+    return {{"severity", severity},
+            {"file", place.empty() ? nlohmann::json() : nlohmann::json(place)},
+            {"line", first},
+            {"column", last},
+            {"message", line.substr(at + mark.size() + (at > 0 ? 2 : 0))}};
+  }
+  return {};
 }
 
 }  // namespace
@@ -79,31 +110,18 @@ std::string contents_as_text(const nlohmann::json& contents) {
 }
 
 nlohmann::json diagnostics_as_json(const std::string& messages) {
-  static const std::regex form(R"((?:(.*?)(?::(\d+))?(?::(\d+))?: )?(error|warning): (.*))");
   auto all = nlohmann::json::array();
   std::istringstream lines(messages);
   for (std::string line; std::getline(lines, line);) {
-    std::smatch part;
-    if (!std::regex_match(line, part, form)) {
-      // It goes on with what was said before.
-      if (all.empty())
-        all.push_back({{"severity", "error"},
-                       {"file", nullptr},
-                       {"line", nullptr},
-                       {"column", nullptr},
-                       {"message", ""}});
-      auto& message = all.back()["message"];
-      message = message.get<std::string>() + (message.get<std::string>().empty() ? "" : "\n") + line;
+    nlohmann::json found = one_diagnostic(line);
+    if (!found.is_null()) {
+      all.push_back(std::move(found));
       continue;
     }
-    const auto number = [&](std::size_t k) {
-      return part[k].matched ? nlohmann::json(std::stol(part[k])) : nlohmann::json();
-    };
-    all.push_back({{"severity", part[4].str()},
-                   {"file", part[1].matched ? nlohmann::json(part[1].str()) : nlohmann::json()},
-                   {"line", number(2)},
-                   {"column", number(3)},
-                   {"message", part[5].str()}});
+    // It goes on with what was said before.
+    if (all.empty()) all.push_back(one_diagnostic("error: "));
+    const std::string before = all.back()["message"];
+    all.back()["message"] = before.empty() ? line : before + "\n" + line;
   }
   return all;
 }
