@@ -46,7 +46,7 @@ CHAINS = {
     "plugin": "input conformance",
     "poroelasticity": "solver:pore_kernels_test solver:coupling_kernels_test kit:poroelasticity run:porous_test run:porous_orders_test scene:poro/waves scene:poro/terzaghi",
     "run": "run:statistics_test run:stepper_test run:balances_test run:results_test run:restart_test run:time_scheme_test "
-           "run:error_norms_test fsi:replay_test run",
+           "solver:error_norms_test fsi:replay_test run",
     "scene": "input cli",
     "solid": "solver kit:solid scene:solid/pressure scene:solid/oscillator scene:solid/spinning_block "
              "scene:solid/cook_incompressible run:physics_test run:energy_test",
