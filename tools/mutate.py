@@ -260,8 +260,15 @@ def main():
     saved = RECORD / "outcomes.csv"
     outcomes = {row["id"]: row for row in csv.DictReader(open(saved))} if saved.exists() else {}
     # To be ended is to be interrupted: what was changed is restored.
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, lambda *_: sys.exit("ended by a signal"))
+    ending = (signal.SIGTERM, signal.SIGHUP)
+
+    def end(*_):
+        for number in ending:  # a second one must not interrupt the restoring
+            signal.signal(number, signal.SIG_IGN)
+        sys.exit("ended by a signal")
+
+    for number in ending:
+        signal.signal(number, end)
     os.environ.update(OPENBLAS_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                       OMPI_MCA_btl_vader_single_copy_mechanism="none", OMPI_MCA_mpi_yield_when_idle="1")
     tree = Tree(options.folder)
