@@ -35,6 +35,12 @@ void report_interruption(const SceneOutcome& outcome) {
 
 int run(const SceneRun& options, bool is_root) {
   const SceneOutcome outcome = run_scene(options);
+  if (outcome.had_finished) {
+    if (is_root)
+      fmt::print("the run in {} is finished, there is nothing to resume; --overwrite solves it again\n",
+                 outcome.folder.string());
+    return ok;
+  }
   if (is_root) report(outcome);
   if (is_root && outcome.lacks_picture)
     fmt::print(stderr, "error: the picture that the scene asks for was not made: see above\n");

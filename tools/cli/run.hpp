@@ -29,6 +29,7 @@ struct SceneOutcome {
   Results results;
   std::vector<CheckResult> checks;
   std::filesystem::path folder;
+  bool had_finished = false;      ///< the run to be resumed had come to its end: nothing was done
   bool lacks_picture = false;     ///< one that the scene asks for could not be made
   std::filesystem::path picture;  ///< empty when none was made
   Timings timings;

@@ -181,11 +181,8 @@ SceneOutcome run_scene(const SceneRun& run) {
   ResultsFolder folder(communicator, scene, results_folder(run, scene, communicator), run.use);
   outcome.folder = folder.path();
   // Whoever starts a run again until it is done is not to have it solved again.
-  if (folder.has_finished() && !run.use.changed)
-    throw RunFailure(
-        fmt::format("the run in {} is finished, there is nothing to resume; --overwrite solves it again",
-                    folder.path().string()),
-        ok);
+  outcome.had_finished = folder.has_finished() && !run.use.changed;
+  if (outcome.had_finished) return outcome;
   Simulation simulation(scene, registry, communicator);
   RunOptions options;
   options.results = &folder;

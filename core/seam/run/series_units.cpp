@@ -31,26 +31,21 @@ std::optional<std::string> unit_of_probe(const Parameters& p, const Problem& pro
                                          const Registry& registry) {
   const std::string& quantity = p.text("quantity");
   const std::string interface = p.has("interface") ? p.text("interface") : "";
-  if (quantity == "reaction" || (quantity == "force" && !interface.empty())) {
-    // Of the first unknown: what works on a way, or on its rate, is a force.
-    const std::string& field =
-        interface.empty() ? p.text("field")
-                          : problem.interfaces().at(interface).front().domain->fields().front()->name();
-    for (const FieldEntry& entry : problem.fields())
-      if (entry.name == field)
-        for (const std::string way : {"m", "m/s"})
-          if (entry.field->unknowns().front().unit == way) return "N";
-    return std::nullopt;
-  }
-  const std::string field = p.has("field")
+  const std::string field = interface.empty()
                                 ? p.text("field")
                                 : problem.interfaces().at(interface).front().domain->fields().front()->name();
+  const auto entry = std::ranges::find(problem.fields(), field, &FieldEntry::name);
+  if (entry == problem.fields().end()) return std::nullopt;
+  const std::vector<Unknown>& unknowns = entry->field->unknowns();
+  if (quantity == "reaction" || (quantity == "force" && !interface.empty())) {
+    // Of the first unknown: what works on a way, or on its rate, is a force.
+    const std::string& way = unknowns.front().unit;
+    return way == "m" || way == "m/s" ? std::optional<std::string>("N") : std::nullopt;
+  }
   Units units;
   for (const auto& [name, parameters] : scene.root.map("fields"))
     if (name == field) units = declared(registry, "field", parameters.type(), Published::As::quantity);
-  for (const FieldEntry& entry : problem.fields())
-    if (entry.name == field)
-      for (const Unknown& unknown : entry.field->unknowns()) units[unknown.name] = unknown.unit;
+  for (const Unknown& unknown : unknowns) units[unknown.name] = unknown.unit;
   const auto found = units.find(quantity);
   if (found == units.end()) return std::nullopt;
   return interface.empty() && !p.has("on") ? found->second : times(found->second, "m^(d-1)");

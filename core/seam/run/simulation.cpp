@@ -57,7 +57,8 @@ Simulation::Simulation(const Scene& scene, const Registry& registry, const Commu
     : scene_(scene), communicator_(communicator), problem_(communicator), stepper_(scene) {
   const Stopwatch watch;
   warnings_ = scene.warnings;
-  resolved_checksum_ = resolved_checksum(resolve(scene, registry));
+  // It reads the files that the scene names: once, by the rank that writes the summary.
+  if (communicator.rank() == 0) resolved_checksum_ = resolved_checksum(resolve(scene, registry));
   build_fields(registry);
   build_couplings(registry);
   const Parameters& solver = scene.root.object("solver");

@@ -155,7 +155,7 @@ class Simulation {
   long last_fields_ = -1;  ///< step number of the fields written last
   long last_restart_ = -1;
   Diagnostics warnings_;
-  std::string resolved_checksum_;  ///< of the scene, its files as they were at the start
+  std::string resolved_checksum_;  ///< on rank 0; files as they were at the start
   std::string failure_;            ///< why the run ended early, "" if it did not
   std::optional<Interruption> interruption_;
 };

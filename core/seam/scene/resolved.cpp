@@ -9,12 +9,11 @@
 #include <cctype>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <vector>
 
 #include "seam/base/checksum.hpp"
+#include "seam/scene/scene_values.hpp"
 #include "seam/scene/validate.hpp"
 
 namespace seam {
@@ -59,12 +58,10 @@ std::string formula(const std::string& text, const std::map<std::string, double>
 
 /// The format of a mesh is told by the end of its name; else the name does not matter.
 std::string content(const std::string& file, const Location& where) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  if (!in.is_open() || in.bad())
+  const std::string sum = content_checksum(file);
+  if (sum.empty())
     throw Error(where, fmt::format("the file '{}' cannot be read; it was there when the scene was", file));
-  return fmt::format("checksum {:016x}, {}", checksum(bytes),
-                     std::filesystem::path(file).extension().string());
+  return fmt::format("checksum {}, {}", sum, std::filesystem::path(file).extension().string());
 }
 
 class Resolver {
@@ -186,10 +183,6 @@ class Resolver {
   const Registry& registry_;
   ResolvedScene result_;
 };
-
-bool is_or_is_within(std::string_view path, std::string_view block) {
-  return path.starts_with(block) && (path.size() == block.size() || path[block.size()] == '.');
-}
 
 /// What a scene without the block `time` does, as it would be written.
 constexpr const char* standard_time = "{static: true, end: 1}";

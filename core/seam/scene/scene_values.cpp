@@ -44,18 +44,6 @@ void flatten(const YamlNode& node, const std::string& path, Values& values) {
 /// Keys whose value is the name of a file that decides what is computed.
 bool names_a_file(const std::string& path) { return path.ends_with(".file") || path == "time.step.replay"; }
 
-/// "" when it cannot be read, which whoever needs it will say.
-std::string content_checksum(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return "";
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  return fmt::format("{:016x}", checksum(bytes));
-}
-
-bool is_or_is_within(std::string_view path, std::string_view block) {
-  return path == block || (path.starts_with(block) && path[block.size()] == '.');
-}
-
 /// Whether a value may change in a run that goes on without making it another simulation.
 bool is_harmless(const std::string& path) {
   constexpr std::array<std::string_view, 16> harmless{"format",         "title",
@@ -70,6 +58,17 @@ bool is_harmless(const std::string& path) {
 }
 
 }  // namespace
+
+std::string content_checksum(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return "";
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  return fmt::format("{:016x}", checksum(bytes));
+}
+
+bool is_or_is_within(std::string_view path, std::string_view block) {
+  return path == block || (path.starts_with(block) && path[block.size()] == '.');
+}
 
 Values scene_values(const Scene& scene) {
   YamlNode root = parse_yaml(scene.text, scene.path.string());

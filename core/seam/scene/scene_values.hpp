@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "seam/scene/scene.hpp"
@@ -19,5 +21,11 @@ std::map<std::string, std::string> scene_values(const Scene& scene);
 /// not.
 std::vector<std::string> scene_differences(const std::map<std::string, std::string>& before,
                                            const std::map<std::string, std::string>& now);
+
+/// Whether a key path is that of a block, or leads into it.
+bool is_or_is_within(std::string_view path, std::string_view block);
+
+/// Of a file, 16 hexadecimal digits; "" when it cannot be read.
+std::string content_checksum(const std::filesystem::path& file);
 
 }  // namespace seam

@@ -83,7 +83,7 @@ MeshData read_file(const Parameters& p) {
   else if (extension == ".geo")
     mesh = mesh_geometry(path, numbers, p.dimension());
   else if (extension == ".vtu")
-    mesh = read_vtu(path);
+    mesh = read_vtu(path);  // judged below; those of Gmsh have been, with the numbers in the file
   else
     throw Error(p.where("file"),
                 fmt::format("cannot tell the format of mesh file '{}'; expected a name that ends in "
@@ -96,6 +96,7 @@ MeshData read_file(const Parameters& p) {
                 fmt::format("mesh '{}' consists of {}s and so has dimension {}, but the scene has "
                             "dimension {}",
                             path, name(mesh.type), mesh.dimension, p.dimension()));
+  if (extension == ".vtu") validate_mesh(mesh, path);
   return mesh;
 }
 
@@ -131,9 +132,7 @@ MeshData load_mesh(const Parameters& p) {
     throw Error(p.where(), grid ? "the mesh has both 'grid' and 'file'; give one of them"
                                 : "the mesh has neither 'grid' nor 'file'; give one of them");
   MeshData mesh = grid ? load_grid(p.object("grid"), p.dimension()) : read_file(p);
-  // What was read from Gmsh's files has been judged with the numbers there.
-  if (grid || p.text("file").ends_with(".vtu"))
-    validate_mesh(mesh, grid ? p.where("grid").text() : p.text("file"));
+  if (grid) validate_mesh(mesh, p.where("grid").text());
   if (p.has("boundaries")) add_boundaries(mesh, p);
   if (p.has("regions")) add_regions(mesh, p);
   return mesh;
