@@ -468,6 +468,13 @@ TEST_CASE("plugins come from where only their owner, root or Seam's owner may wr
     fs::permissions("open", fs::perms::sticky_bit, fs::perm_options::add);
     CHECK_THAT(plugins("open/plugins"), Contains("provides: field beam"));
   }
+  SECTION("a group of users may not write, either") {
+    if (geteuid() != 0) return;  // only root gives files away
+    make("shared/plugins");
+    run_shell("chgrp 4711 shared && chmod g+w shared");
+    CHECK_THAT(plugins("shared/plugins"),
+               !Contains("field beam") && Contains("a group of users (number 4711) may write to it"));
+  }
   SECTION("what belongs to somebody else is refused, with what to do") {
     if (geteuid() != 0) return;
     run_shell("chown 4711 sound/plugins/libseam_beam.so");

@@ -126,6 +126,11 @@ TEST_CASE("the kit differentiates at rest, and says of terms that they were not 
   INFO(rest.output);
   CHECK_THAT(rest.output, Contains("FAIL  finite at the start"));
   CHECK_THAT(rest.output, Contains("the term 'Conduction' of plate.temperature"));
+  // No probe and no picture asks for it.
+  const Result unseen = run_kit("output throws", "1");
+  INFO(unseen.output);
+  CHECK(unseen.code != 0);
+  CHECK_THAT(unseen.output, Contains("no such row"));
   const Result nothing = run_kit("nothing", "1");
   INFO(nothing.output);
   CHECK_THAT(nothing.output, Contains("skip  tangent: Radiation on cells of field 'plate'"));

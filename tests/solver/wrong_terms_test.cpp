@@ -2,6 +2,7 @@
 // Terms that give what is no number, or refuse a step on one rank only.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "seam/assembly/together.hpp"
 #include "seam/base/plugin_fault.hpp"
@@ -32,6 +33,17 @@ struct NoNumber {
   template <int dim, class T>
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     r.value(c{}) += s.value(c{}) - (x.position[0] < 0.2 ? std::nan("") : 1.0);
+  }
+};
+
+/// Fails at points on the right of a line through a cell.
+struct Throwing {
+  using Reads = Slots<Value<c>>;
+  using Tests = Slots<Value<c>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    if (x.position[0] > 0.9) throw std::runtime_error("no such row");
+    r.value(c{}) += s.value(c{}) - 1.0;
   }
 };
 
@@ -158,4 +170,19 @@ TEST_CASE("points that move with more facets than there is room for are refused"
   CHECK_NOTHROW(ElementEvaluator(ManyMovers(field, 9), {}));  // in the plane a facet moves by 4 numbers
   CHECK_THROWS_WITH(ElementEvaluator(ManyMovers(field, 10), {}),
                     Catch::Contains("the points of a strange domain move with 10 facets; 9 at most"));
+}
+
+TEST_CASE("where a kernel throws, the message names the point at which it does") {
+  const auto problem = problem_of<Throwing>();
+  // The last column of cells begins at 5/6: its first points are left of 0.9.
+  try {
+    static_cast<void>(test::solve_static(*problem));
+    FAIL("it should throw");
+  } catch (const PluginFault& fault) {
+    const std::string text = fault.what();
+    const std::size_t at = text.find(" at (");
+    REQUIRE(at != std::string::npos);
+    INFO(text);
+    CHECK(std::stod(text.substr(at + 5)) > 0.9);
+  }
 }

@@ -110,6 +110,8 @@ class Faulty final : public Physics {
     if (how_ == "starts rate") setup.set_initial_rate("temperature", 1, zero);
     if (how_ == "gives") setup.give("temperature", 1, zero);
     setup.prescribe("x_min", "temperature", 0, zero, where_);
+    if (how_ == "output throws")
+      setup.add_output("two", make_quantity(Numbers<2>{"quantity throws"}), {"temperature"});
     setup.add_integral("heat", make_quantity(Numbers<1>{how_}), {"temperature"});
   }
 
