@@ -38,6 +38,7 @@ CHAINS = {
     "field": "solver run:restart_test",
     "interface": "mesh solver cut scene:solid/bonded_blocks",
     "linear": "solver fluid:linear_solver_test kit:cutfem_fluid",
+    "manufactured": "fsi:exact_test solver scene:fsi/c01 scene:poro/c07 scene:poro/waves",
     "mesh": "mesh input",
     "nitsche_fsci": "solver:nitsche_kernels_test solver:coupling_kernels_test fsi:eigenvalue_test fsi:exact_test fsi:contact_in_fluid_test fsi:porous_trends_test kit:nitsche_fsci "
                     "scene:contact/patch_2d run:energy_test",
@@ -45,6 +46,7 @@ CHAINS = {
     "physics": "solver kit:solid",
     "plugin": "input conformance",
     "poroelasticity": "solver:pore_kernels_test solver:coupling_kernels_test kit:poroelasticity run:porous_test run:porous_orders_test scene:poro/waves scene:poro/terzaghi",
+    "record": "run:statistics_test run:results_test run:balances_test solver:error_norms_test run",
     "run": "run:statistics_test run:stepper_test run:balances_test run:results_test run:restart_test run:time_scheme_test "
            "solver:error_norms_test fsi:replay_test run",
     "scene": "input cli",
@@ -52,6 +54,7 @@ CHAINS = {
              "scene:solid/cook_incompressible run:physics_test run:energy_test",
     "solve": "solver run:stepper_test run:time_scheme_test fsi:replay_test run:failure_test fsi:newton_test",
     "space": "solver cut fluid",
+    "surface": "cut contact mesh scene:contact/patch_2d",
     "term": "solver kit:solid fluid kit:cutfem_fluid scene:fluid/patch_shear",
 }
 

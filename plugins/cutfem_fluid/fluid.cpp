@@ -48,7 +48,7 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
       flow_{p.number("density"), p.number("viscosity"), p.boolean("convection")},
       on_mesh_{p.has("moving_mesh")},
       order_(static_cast<int>(p.integer("order"))),
-      nodal_force_(p.has("body_force") && p.boolean("interpolate_body_force")) {
+      body_force_(p, "body_force") {
   if (order_ > stabilisation_->highest_order())
     throw Error(p.where("stabilisation"),
                 fmt::format("`{}` is consistent up to order {}; `order: {}` needs `cip`",
@@ -62,7 +62,7 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
 std::vector<Unknown> Fluid::unknowns(int dimension) const {
   std::vector<Unknown> result{{"velocity", dimension, order_, 1, "m/s"}, {"pressure", 1, order_, 0, "Pa"}};
   if (on_mesh_.moves) result.push_back({"displacement", dimension, 1, 1, "m"});
-  if (nodal_force_) result.push_back({"body_force", dimension, order_, 0, "m/s^2", true});
+  body_force_.add_unknown(result, dimension, order_);
   return result;
 }
 
@@ -75,10 +75,11 @@ void Fluid::build(FieldSetup& setup) const {
     add_mesh_motion(setup);
   else
     add_ghost_penalty(setup);
-  for (const Parameters& condition : parameters_.list("boundary"))
-    for (const std::string& name : condition.names("on")) add_boundary(setup, condition, name);
+  for_each_boundary(parameters_, [&](const Parameters& condition, const std::string& name) {
+    add_boundary(setup, condition, name);
+  });
   fix_pressure_level(setup);
-  set_initial(setup);
+  set_initial(setup, parameters_, initial_keys());
   add_outputs(setup);
 }
 
@@ -87,29 +88,21 @@ void Fluid::add_volume_terms(FieldSetup& setup) const {
   setup.add_cell_term(on_mesh_.term(Stokes{flow_.viscosity}), both);
   setup.add_cell_term(on_mesh_.term(Inertia{flow_.density}), both);
   if (flow_.convection) setup.add_cell_term(on_mesh_.term(Convection{flow_.density}, order_ - 1), both);
-  std::vector<Expression> body_force;
-  if (parameters_.has("body_force")) {
-    body_force = parameters_.vector_expression("body_force");
-    if (nodal_force_) {
-      for (int d = 0; d < setup.dimension(); ++d) setup.give("body_force", d, body_force[d]);
-      setup.add_cell_term(on_mesh_.term(NodalLoad{flow_.density}, 1),
-                          on_mesh_.operands("velocity", "body_force"));
-    } else {
-      setup.add_cell_term(on_mesh_.term(Load{body_force, flow_.density}, 1), both);
-    }
-  }
-  stabilisation_->add(setup, on_mesh_, flow_, body_force);
+  body_force_.give(setup);
+  if (body_force_.is_nodal())
+    setup.add_cell_term(on_mesh_.term(NodalLoad{flow_.density}, 1),
+                        on_mesh_.operands("velocity", body_force_.key()));
+  else if (body_force_.is_given())
+    setup.add_cell_term(on_mesh_.term(Load{body_force_.per_mass(), flow_.density}, 1), both);
+  stabilisation_->add(setup, on_mesh_, flow_, body_force_.per_mass());
 }
 
 void Fluid::add_mesh_motion(FieldSetup& setup) const {
   const Parameters& motion = parameters_.object("moving_mesh");
   setup.add_cell_term(make_term(PseudoElastic{motion.number("poisson")}), {"displacement"});
-  for (const Parameters& condition : motion.list("boundary"))
-    for (const std::string& name : condition.names("on"))
-      for (int d = 0; d < setup.dimension(); ++d)
-        if (condition.component_given("displacement", d))
-          setup.prescribe(name, "displacement", d, condition.vector_expression("displacement")[d],
-                          condition.where("displacement"));
+  for_each_boundary(motion, [&](const Parameters& condition, const std::string& name) {
+    prescribe_given(setup, condition, name, "displacement");
+  });
   setup.add_output("mesh_volume", make_quantity(MeshVolume{}), {"displacement"});
 }
 
@@ -131,18 +124,14 @@ void Fluid::add_boundary(FieldSetup& setup, const Parameters& condition, const s
 }
 
 void Fluid::add_velocity(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const {
-  const auto& velocity = condition.vector_expression("velocity");
-  for (int d = 0; d < setup.dimension(); ++d) {
-    const bool given = condition.component_given("velocity", d);
-    if (condition.boolean("weak") && !given)
+  if (!condition.boolean("weak")) return prescribe_given(setup, condition, boundary, "velocity");
+  for (int d = 0; d < setup.dimension(); ++d)
+    if (!condition.component_given("velocity", d))
       throw Error(condition.where("velocity"),
                   "a weakly imposed velocity needs all its components; see `slip_length` for free sliding");
-    if (given && !condition.boolean("weak"))
-      setup.prescribe(boundary, "velocity", d, velocity[d], condition.where("velocity"));
-  }
-  if (condition.boolean("weak"))
-    setup.add_boundary_term(boundary, on_mesh_.term(weak_condition(condition, flow_, velocity), 1),
-                            on_mesh_.operands("velocity", "pressure"));
+  const auto& velocity = condition.vector_expression("velocity");
+  setup.add_boundary_term(boundary, on_mesh_.term(weak_condition(condition, flow_, velocity), 1),
+                          on_mesh_.operands("velocity", "pressure"));
 }
 
 /// On a side that a coordinate is constant on, the normal component is prescribed; else it is imposed weakly.
@@ -170,20 +159,11 @@ void Fluid::fix_pressure_level(FieldSetup& setup) const {
   std::vector<std::string> open;
   if (choice == "auto") {
     open = setup.boundaries();
-    for (const Parameters& condition : parameters_.list("boundary"))
-      for (const std::string& name : condition.names("on"))
-        if (confines(setup, condition, name)) std::erase(open, name);
+    for_each_boundary(parameters_, [&](const Parameters& condition, const std::string& name) {
+      if (confines(setup, condition, name)) std::erase(open, name);
+    });
   }
   setup.fix_level("pressure", parameters_.number("pressure_level"), open);
-}
-
-void Fluid::set_initial(FieldSetup& setup) const {
-  if (!parameters_.has("initial")) return;
-  const Parameters& initial = parameters_.object("initial");
-  if (initial.has("velocity"))
-    for (int d = 0; d < setup.dimension(); ++d)
-      setup.set_initial("velocity", d, initial.vector_expression("velocity")[d]);
-  if (initial.has("pressure")) setup.set_initial("pressure", 0, initial.expression("pressure"));
 }
 
 void Fluid::add_outputs(FieldSetup& setup) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "seam/physics/conditions.hpp"
 #include "seam/physics/physics.hpp"
 #include "stabilisation.hpp"
 
@@ -28,7 +29,7 @@ class Fluid final : public Physics {
   void add_slip(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
   void add_outflow(FieldSetup& setup, const Parameters& condition, const std::string& boundary) const;
   void fix_pressure_level(FieldSetup& setup) const;
-  void set_initial(FieldSetup& setup) const;
+  static const std::vector<InitialKey>& initial_keys();
   void add_outputs(FieldSetup& setup) const;
 
   Parameters parameters_;
@@ -36,7 +37,7 @@ class Fluid final : public Physics {
   Flow flow_;
   OnMesh on_mesh_;
   int order_;
-  bool nodal_force_;  ///< the body force is interpolated from the nodes
+  BodyForce body_force_;
 };
 
 }  // namespace seam::fluid

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "fluid.hpp"
+#include "seam/physics/conditions.hpp"
 #include "weak_condition.hpp"
 
 namespace seam::fluid {
@@ -7,7 +8,6 @@ namespace {
 
 Schema boundary_schema() {
   Schema s("A condition on part of the boundary: one of velocity, slip, traction and outflow.");
-  s.names("on", "Boundaries of the mesh").naming("boundary");
   s.vector_expression("velocity", "Given velocity; null leaves a component free").unit("m/s").optional();
   s.boolean("weak", "Impose the velocity weakly, by Nitsche's method").otherwise("false");
   declare_weak_condition(s);
@@ -42,14 +42,19 @@ Schema moving_mesh_schema() {
       "given here; between these it is an elastic body without mass.");
   s.number("poisson", "Poisson's ratio of that body").otherwise("0").above(-1).below(0.5);
   Schema boundary("Where the motion of the mesh is given.");
-  boundary.names("on", "Boundaries of the mesh").naming("boundary");
   boundary.vector_expression("displacement", "Of the mesh; null leaves a component free").unit("m");
-  s.list("boundary", "Given motion; where there is none, the boundary goes along freely", boundary)
-      .otherwise("[]");
+  declare_boundary(s, "Given motion; where there is none, the boundary goes along freely", boundary);
   return s;
 }
 
 }  // namespace
+
+const std::vector<InitialKey>& Fluid::initial_keys() {
+  static const std::vector<InitialKey> keys{
+      {"velocity", "Velocity", "m/s", "velocity"},
+      {"pressure", "Pressure", "Pa", "pressure", InitialKey::Of::scalar}};
+  return keys;
+}
 
 Schema Fluid::schema() {
   Schema s(
@@ -60,16 +65,10 @@ Schema Fluid::schema() {
   s.number("viscosity", "Dynamic viscosity").unit("Pa s").above(0);
   s.boolean("convection", "false leaves out the convective acceleration: Stokes flow").otherwise("true");
   s.integer("order", "Polynomial order of velocity and pressure").otherwise("1").at_least(1).at_most(2);
-  s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
-  s.boolean("interpolate_body_force", "Take it at the nodes and interpolate, instead of at every point")
-      .otherwise("false");
-  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction",
-         boundary_schema())
-      .otherwise("[]");
-  Schema initial("State at the start");
-  initial.vector_expression("velocity", "Velocity").unit("m/s").optional();
-  initial.expression("pressure", "Pressure").unit("Pa").optional();
-  s.object("initial", "State at the start; default at rest", initial).optional();
+  declare_body_forces(s, {{"body_force", "Force per mass, as gravity"}});
+  declare_boundary(s, "Conditions on the boundary; where there is none, it is free of traction",
+                   boundary_schema());
+  declare_initial(s, "State at the start; default at rest", initial_keys());
   s.typed("stabilisation", "Against oscillations of equal orders and of convection", "fluid_stabilisation")
       .otherwise("cip");
   s.object("moving_mesh", "The mesh moves (ALE formulation); needs `stabilisation: residual`",

@@ -73,16 +73,16 @@ class FpiVortices final : public Function {
     return s;
   }
 
-  [[nodiscard]] const std::vector<Part>& parts() const override {
-    static const std::vector<Part> parts{{"velocity", 2},          {"velocity_gradient", 4},
-                                         {"pressure", 1},          {"fluid_force", 2},
-                                         {"fluid_stress", 4},      {"flow", 2},
-                                         {"excess_stress", 4},     {"displacement", 2},
-                                         {"displacement_rate", 2}, {"displacement_gradient", 4},
-                                         {"pore_velocity", 2},     {"pore_velocity_gradient", 4},
-                                         {"pore_pressure", 1},     {"pore_force", 2},
-                                         {"mixture_force", 2},     {"mixture_stress", 4},
-                                         {"body_flow", 2},         {"left_traction", 2}};
+  [[nodiscard]] const std::vector<Member>& members() const override {
+    static const std::vector<Member> parts{{"velocity", 2},          {"velocity_gradient", 4},
+                                           {"pressure", 1},          {"fluid_force", 2},
+                                           {"fluid_stress", 4},      {"flow", 2},
+                                           {"excess_stress", 4},     {"displacement", 2},
+                                           {"displacement_rate", 2}, {"displacement_gradient", 4},
+                                           {"pore_velocity", 2},     {"pore_velocity_gradient", 4},
+                                           {"pore_pressure", 1},     {"pore_force", 2},
+                                           {"mixture_force", 2},     {"mixture_stress", 4},
+                                           {"body_flow", 2},         {"left_traction", 2}};
     return parts;
   }
 

@@ -38,8 +38,8 @@ class FsiVortices final : public Function {
     return s;
   }
 
-  [[nodiscard]] const std::vector<Part>& parts() const override {
-    static const std::vector<Part> parts{
+  [[nodiscard]] const std::vector<Member>& members() const override {
+    static const std::vector<Member> parts{
         {"velocity", 2},     {"velocity_gradient", 4}, {"pressure", 1},          {"fluid_force", 2},
         {"fluid_stress", 4}, {"displacement", 2},      {"displacement_rate", 2}, {"displacement_gradient", 4},
         {"body_force", 2},   {"body_stress", 4}};

@@ -64,20 +64,20 @@ class PorousWaves final : public Function {
                                                ", the diagonal");
   }
 
-  [[nodiscard]] const std::vector<Part>& parts() const override {
-    static const std::vector<Part> parts{{"displacement", dim},
-                                         {"displacement_gradient", dim * dim},
-                                         {"displacement_rate", dim},
-                                         {"velocity", dim},
-                                         {"velocity_gradient", dim * dim},
-                                         {"pressure", 1},
-                                         {"pressure_gradient", dim},
-                                         {"porosity", 1},
-                                         {"mass_source", 1},
-                                         {"fluid_force", dim},
-                                         {"mixture_force", dim},
-                                         {"right_traction", dim},
-                                         {"top_seepage", 1}};
+  [[nodiscard]] const std::vector<Member>& members() const override {
+    static const std::vector<Member> parts{{"displacement", dim},
+                                           {"displacement_gradient", dim * dim},
+                                           {"displacement_rate", dim},
+                                           {"velocity", dim},
+                                           {"velocity_gradient", dim * dim},
+                                           {"pressure", 1},
+                                           {"pressure_gradient", dim},
+                                           {"porosity", 1},
+                                           {"mass_source", 1},
+                                           {"fluid_force", dim},
+                                           {"mixture_force", dim},
+                                           {"right_traction", dim},
+                                           {"top_seepage", 1}};
     return parts;
   }
 

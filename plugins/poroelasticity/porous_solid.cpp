@@ -56,7 +56,8 @@ PorousSolid::PorousSolid(const Parameters& parameters, const Registry& registry)
     : parameters_(parameters),
       fluid_density_(parameters.number("fluid_density")),
       viscosity_(parameters.number("viscosity")),
-      nodal_forces_(parameters.boolean("interpolate_body_force")),
+      body_force_(parameters, "body_force"),
+      fluid_force_(parameters, "fluid_body_force"),
       order_(static_cast<int>(parameters.integer("order"))) {
   for (const MaterialOfRegion& of : materials(parameters, {"material", "porosity", "permeability"})) {
     PotentialPointer skeleton = registry.create<Potential>("hyperelastic", of("material").object("material"));
@@ -79,9 +80,8 @@ std::vector<Unknown> PorousSolid::unknowns(int dimension) const {
   std::vector<Unknown> result{{"displacement", dimension, order_, has_mass_ ? 2 : 1, "m"},
                               {"velocity", dimension, order_, fluid_density_ > 0 ? 1 : 0, "m/s"},
                               {"pressure", 1, 1, porosity_changes_ ? 1 : 0, "Pa"}};
-  for (const std::string force : {"body_force", "fluid_body_force"})
-    if (nodal_forces_ && parameters_.has(force))
-      result.push_back({force, dimension, order_, 0, "m/s^2", true});
+  body_force_.add_unknown(result, dimension, order_);
+  fluid_force_.add_unknown(result, dimension, order_);
   return result;
 }
 
@@ -98,9 +98,10 @@ void PorousSolid::build(FieldSetup& setup) const {
       add_outputs(setup, region);
     });
   add_loads(setup);
-  for (const Parameters& condition : parameters_.list("boundary"))
-    for (const std::string& name : condition.names("on")) add_boundary(setup, condition, name);
-  set_initial(setup);
+  for_each_boundary(parameters_, [&](const Parameters& condition, const std::string& name) {
+    add_boundary(setup, condition, name);
+  });
+  set_initial(setup, parameters_, initial_keys());
 }
 
 void PorousSolid::add_balances(FieldSetup& setup, const Region& region) const {
@@ -116,15 +117,13 @@ void PorousSolid::add_balances(FieldSetup& setup, const Region& region) const {
 void PorousSolid::add_stabilisation(FieldSetup& setup, const Region& region) const {
   const Parameters& factors = parameters_.object("stabilisation");
   if (factors.text("method") == "residual") {
-    const bool has_force = parameters_.has("fluid_body_force");
-    if (has_force && nodal_forces_)
+    if (fluid_force_.is_nodal())
       throw Error(factors.where("method"),
                   "the residual needs `fluid_body_force` at every point; leave out "
                   "`interpolate_body_force`, or take `method: interior`");
-    const auto force =
-        has_force ? parameters_.vector_expression("fluid_body_force") : std::vector<Expression>{};
-    setup.add_cell_term(make_term(ResidualStabilisation{region.flow, force, factors.number("momentum")}),
-                        all_unknowns);
+    setup.add_cell_term(
+        make_term(ResidualStabilisation{region.flow, fluid_force_.per_mass(), factors.number("momentum")}),
+        all_unknowns);
     return;
   }
   setup.add_interior_face_term(
@@ -134,32 +133,18 @@ void PorousSolid::add_stabilisation(FieldSetup& setup, const Region& region) con
 }
 
 void PorousSolid::add_loads(FieldSetup& setup) const {
-  const auto check = [&](const std::string& key, bool has_mass, const std::string& missing) {
-    if (!has_mass)
-      throw Error(parameters_.where(key),
-                  "a force per mass acts on something without mass: give a `" + missing + "`");
-    for (int d = 0; nodal_forces_ && d < setup.dimension(); ++d)
-      setup.give(key, d, parameters_.vector_expression(key)[d]);
-    return parameters_.vector_expression(key);
-  };
-  if (parameters_.has("body_force")) {
-    const std::vector<Expression> force = check("body_force", has_mass_, "density");
-    for (std::size_t k = 0; k < regions_.size(); ++k)
-      setup.within(static_cast<int>(k), [&, density = regions_[k].density] {
-        if (nodal_forces_)
-          setup.add_cell_term(make_term(NodalBodyLoad{density}, 1), {"displacement", "body_force"});
-        else
-          setup.add_cell_term(make_term(BodyLoad{force, density}, 1), {"displacement"});
-      });
-  }
-  if (parameters_.has("fluid_body_force")) {
-    const std::vector<Expression> force = check("fluid_body_force", fluid_density_ > 0, "fluid_density");
-    if (nodal_forces_)
-      setup.add_cell_term(make_term(NodalFluidLoad{fluid_density_}, 1),
-                          {"displacement", "velocity", "fluid_body_force"});
-    else
-      setup.add_cell_term(make_term(FluidLoad{force, fluid_density_}, 1), {"displacement", "velocity"});
-  }
+  body_force_.require_mass(has_mass_, "density");
+  std::vector<double> densities;
+  for (const Region& region : regions_) densities.push_back(region.density);
+  add_body_loads(setup, body_force_, "displacement", densities);
+  fluid_force_.require_mass(fluid_density_ > 0, "fluid_density");
+  fluid_force_.give(setup);
+  if (fluid_force_.is_nodal())
+    setup.add_cell_term(make_term(NodalFluidLoad{fluid_density_}, 1),
+                        {"displacement", "velocity", fluid_force_.key()});
+  else if (fluid_force_.is_given())
+    setup.add_cell_term(make_term(FluidLoad{fluid_force_.per_mass(), fluid_density_}, 1),
+                        {"displacement", "velocity"});
   if (parameters_.has("mass_source"))
     setup.add_cell_term(make_term(MassSource{parameters_.expression("mass_source")}, 1), {"pressure"});
 }
@@ -167,9 +152,7 @@ void PorousSolid::add_loads(FieldSetup& setup) const {
 void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,
                                const std::string& name) const {
   for (const std::string unknown : {"displacement", "velocity"})
-    for (int d = 0; condition.has(unknown) && d < setup.dimension(); ++d)
-      if (condition.component_given(unknown, d))
-        setup.prescribe(name, unknown, d, condition.vector_expression(unknown)[d], condition.where(unknown));
+    prescribe_given(setup, condition, name, unknown);
   if (condition.has("traction"))
     setup.add_boundary_term(name, make_term(BodyLoad{condition.vector_expression("traction"), 1.0}, 1),
                             {"displacement"});
@@ -194,18 +177,6 @@ void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,
                     4),
           all_unknowns);
     });
-}
-
-void PorousSolid::set_initial(FieldSetup& setup) const {
-  if (!parameters_.has("initial")) return;
-  const Parameters& initial = parameters_.object("initial");
-  for (int d = 0; d < setup.dimension(); ++d) {
-    for (const std::string unknown : {"displacement", "velocity"})
-      if (initial.has(unknown)) setup.set_initial(unknown, d, initial.vector_expression(unknown)[d]);
-    if (initial.has("velocity_of_skeleton"))
-      setup.set_initial_rate("displacement", d, initial.vector_expression("velocity_of_skeleton")[d]);
-  }
-  if (initial.has("pressure")) setup.set_initial("pressure", 0, initial.expression("pressure"));
 }
 
 void PorousSolid::add_outputs(FieldSetup& setup, const Region& region) {

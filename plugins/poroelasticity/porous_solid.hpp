@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels.hpp"
+#include "seam/physics/conditions.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/registry.hpp"
 
@@ -31,14 +32,14 @@ class PorousSolid final : public Physics {
   static void add_outputs(FieldSetup& setup, const Region& region);
   void add_loads(FieldSetup& setup) const;
   void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& name) const;
-  void set_initial(FieldSetup& setup) const;
+  static const std::vector<InitialKey>& initial_keys();
 
   Parameters parameters_;
   std::vector<Region> regions_;  ///< one at least
   double fluid_density_, viscosity_;
+  BodyForce body_force_, fluid_force_;
   bool has_mass_;  ///< the skeleton
   bool porosity_changes_;
-  bool nodal_forces_;
   int order_;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "porous_solid.hpp"
+#include "seam/physics/conditions.hpp"
 #include "seam/physics/regions.hpp"
 
 namespace seam::poro {
@@ -7,7 +8,6 @@ namespace {
 
 Schema boundary_schema() {
   Schema s("A condition on part of the boundary.");
-  s.names("on", "Boundaries of the mesh").naming("boundary");
   s.vector_expression("displacement", "Prescribed displacement of the skeleton; null leaves a component free")
       .unit("m")
       .optional();
@@ -48,6 +48,15 @@ Schema porosity_schema() {
 }
 
 }  // namespace
+
+const std::vector<InitialKey>& PorousSolid::initial_keys() {
+  static const std::vector<InitialKey> keys{
+      {"displacement", "Displacement", "m", "displacement"},
+      {"velocity_of_skeleton", "Its rate", "m/s", "displacement", InitialKey::Of::rate_of_vector},
+      {"velocity", "Velocity in the pores", "m/s", "velocity"},
+      {"pressure", "Pressure in the pores", "Pa", "pressure", InitialKey::Of::scalar}};
+  return keys;
+}
 
 Schema PorousSolid::schema() {
   Schema s(
@@ -99,25 +108,16 @@ Schema PorousSolid::schema() {
   stabilisation.number("momentum", "Factor of `residual`").otherwise("0.5").above(0);
   s.object("stabilisation", "What keeps velocity and pressure of order 1 stable", stabilisation)
       .otherwise("{}");
-  s.vector_expression("body_force", "On the mixture, per mass of the skeleton").unit("m/s^2").optional();
-  s.vector_expression("fluid_body_force", "On the fluid in the pores, per mass").unit("m/s^2").optional();
+  declare_body_forces(s, {{"body_force", "On the mixture, per mass of the skeleton"},
+                          {"fluid_body_force", "On the fluid in the pores, per mass"}});
   s.expression(
        "mass_source",
        "Volume of fluid that comes into the pores per reference volume and second; it brings no momentum")
       .unit("1/s")
       .optional();
-  s.boolean("interpolate_body_force",
-            "Take body forces at the nodes and interpolate, instead of at every point")
-      .otherwise("false");
-  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction and drained",
-         boundary_schema())
-      .otherwise("[]");
-  Schema initial("State at the start");
-  initial.vector_expression("displacement", "Displacement").unit("m").optional();
-  initial.vector_expression("velocity_of_skeleton", "Its rate").unit("m/s").optional();
-  initial.vector_expression("velocity", "Velocity in the pores").unit("m/s").optional();
-  initial.expression("pressure", "Pressure in the pores").unit("Pa").optional();
-  s.object("initial", "State at the start; default at rest, undeformed", initial).optional();
+  declare_boundary(s, "Conditions on the boundary; where there is none, it is free of traction and drained",
+                   boundary_schema());
+  declare_initial(s, "State at the start; default at rest, undeformed", initial_keys());
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "kernels.hpp"
+#include "seam/physics/conditions.hpp"
 #include "seam/term/kernel_term.hpp"
 
 namespace seam::solid {
@@ -203,9 +204,7 @@ void RigidBody::prescribe(FieldSetup& setup, const std::string& unknown) const {
   if (values.size() != expected)
     throw Error(parameters_.where(unknown), "`" + unknown + "` needs " + std::to_string(expected) +
                                                 " entries, found " + std::to_string(values.size()));
-  for (std::size_t d = 0; d < values.size(); ++d)
-    if (parameters_.component_given(unknown, static_cast<int>(d)))
-      setup.prescribe("", unknown, static_cast<int>(d), values[d], parameters_.where(unknown));
+  prescribe_given(setup, parameters_, "", unknown);
 }
 
 void RigidBody::build(FieldSetup& setup) const {

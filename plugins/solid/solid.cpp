@@ -2,6 +2,7 @@
 #include "solid.hpp"
 
 #include "quantities.hpp"
+#include "seam/physics/conditions.hpp"
 #include "seam/physics/regions.hpp"
 #include "seam/physics/stress_law.hpp"
 
@@ -12,9 +13,12 @@ constexpr const char* unknown_name = "displacement";
 const std::vector<std::string> displacement_only{unknown_name};
 const std::vector<std::string> mixed_unknowns{unknown_name, "pressure", "dilation"};
 
+const std::vector<InitialKey> initial_keys{
+    {"displacement", "Displacement", "m", unknown_name},
+    {"velocity", "Velocity", "m/s", unknown_name, InitialKey::Of::rate_of_vector}};
+
 Schema boundary_schema() {
   Schema s("A condition on part of the boundary.");
-  s.names("on", "Boundaries of the mesh").naming("boundary");
   s.vector_expression("displacement", "Prescribed displacement; null leaves a component free")
       .unit("m")
       .optional();
@@ -44,23 +48,17 @@ Schema Solid::schema() {
            {"displacement", "mixed"})
       .otherwise("displacement");
   s.integer("order", "Polynomial order of the displacement").otherwise("1").at_least(1).at_most(2);
-  s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
-  s.boolean("interpolate_body_force", "Take it at the nodes and interpolate, instead of at every point")
-      .otherwise("false");
-  s.list("boundary", "Conditions on the boundary; where there is none, it is free of traction",
-         boundary_schema())
-      .otherwise("[]");
-  Schema initial("State at the start");
-  initial.vector_expression("displacement", "Displacement").unit("m").optional();
-  initial.vector_expression("velocity", "Velocity").unit("m/s").optional();
-  s.object("initial", "State at the start; default at rest, undeformed", initial).optional();
+  declare_body_forces(s, {{"body_force", "Force per mass, as gravity"}});
+  declare_boundary(s, "Conditions on the boundary; where there is none, it is free of traction",
+                   boundary_schema());
+  declare_initial(s, "State at the start; default at rest, undeformed", initial_keys);
   return s;
 }
 
 Solid::Solid(const Parameters& p, const Registry& registry)
     : parameters_(p),
+      body_force_(p, "body_force"),
       mixed_(p.text("formulation") == "mixed"),
-      nodal_force_(p.has("body_force") && p.boolean("interpolate_body_force")),
       order_(static_cast<int>(p.integer("order"))) {
   for (const MaterialOfRegion& of : materials(p, {"material"})) {
     regions_.push_back({registry.create<Potential>("hyperelastic", of("material").object("material")),
@@ -82,7 +80,7 @@ std::vector<Unknown> Solid::unknowns(int dimension) const {
     result.push_back({"pressure", 1, 1, 0, "Pa"});
     result.push_back({"dilation", 1, 1, 0, ""});
   }
-  if (nodal_force_) result.push_back({"body_force", dimension, order_, 0, "m/s^2", true});
+  body_force_.add_unknown(result, dimension, order_);
   return result;
 }
 
@@ -94,16 +92,10 @@ void Solid::build(FieldSetup& setup) const {
       add_outputs(setup, region);
     });
   add_body_force(setup);
-  for (const Parameters& condition : parameters_.list("boundary")) add_boundary(setup, condition);
-  if (parameters_.has("initial")) {
-    const Parameters& initial = parameters_.object("initial");
-    for (int d = 0; d < setup.dimension(); ++d) {
-      if (initial.has("displacement"))
-        setup.set_initial(unknown_name, d, initial.vector_expression("displacement")[d]);
-      if (initial.has("velocity"))
-        setup.set_initial_rate(unknown_name, d, initial.vector_expression("velocity")[d]);
-    }
-  }
+  for_each_boundary(parameters_, [&](const Parameters& condition, const std::string& name) {
+    add_boundary(setup, condition, name);
+  });
+  set_initial(setup, parameters_, initial_keys);
 }
 
 void Solid::add_body_terms(FieldSetup& setup, const Region& region) const {
@@ -116,37 +108,22 @@ void Solid::add_body_terms(FieldSetup& setup, const Region& region) const {
 }
 
 void Solid::add_body_force(FieldSetup& setup) const {
-  if (!parameters_.has("body_force")) return;
-  if (!has_mass_)
-    throw Error(parameters_.where("body_force"),
-                "a body force per mass acts on a body without mass: give a `density`");
-  const auto& force = parameters_.vector_expression("body_force");
-  for (int d = 0; nodal_force_ && d < setup.dimension(); ++d) setup.give("body_force", d, force[d]);
-  for (std::size_t k = 0; k < regions_.size(); ++k)
-    setup.within(static_cast<int>(k), [&, density = regions_[k].density] {
-      if (nodal_force_)
-        setup.add_cell_term(make_term(NodalBodyLoad{density}, 1), {unknown_name, "body_force"});
-      else
-        setup.add_cell_term(make_term(BodyLoad{force, density}, 1), displacement_only);
-    });
+  body_force_.require_mass(has_mass_, "density");
+  std::vector<double> densities;
+  for (const Region& region : regions_) densities.push_back(region.density);
+  add_body_loads(setup, body_force_, unknown_name, densities);
 }
 
-void Solid::add_boundary(FieldSetup& setup, const Parameters& condition) const {
-  for (const std::string& name : condition.names("on")) {
-    if (condition.has("displacement"))
-      for (int d = 0; d < setup.dimension(); ++d)
-        if (condition.component_given("displacement", d))
-          setup.prescribe(name, unknown_name, d, condition.vector_expression("displacement")[d],
-                          condition.where("displacement"));
-    if (condition.has("traction"))
-      setup.add_boundary_term(name, make_term(BodyLoad{condition.vector_expression("traction"), 1.0}, 1),
-                              displacement_only);
-    if (condition.has("support"))
-      setup.add_boundary_term(name, make_term(Support{condition.vector("support")}, 1), displacement_only);
-    if (condition.has("pressure"))
-      setup.add_boundary_term(name, make_term(FollowerPressure{condition.expression("pressure")}, 1),
-                              displacement_only);
-  }
+void Solid::add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& name) {
+  prescribe_given(setup, condition, name, unknown_name);
+  if (condition.has("traction"))
+    setup.add_boundary_term(name, make_term(BodyLoad{condition.vector_expression("traction"), 1.0}, 1),
+                            displacement_only);
+  if (condition.has("support"))
+    setup.add_boundary_term(name, make_term(Support{condition.vector("support")}, 1), displacement_only);
+  if (condition.has("pressure"))
+    setup.add_boundary_term(name, make_term(FollowerPressure{condition.expression("pressure")}, 1),
+                            displacement_only);
 }
 
 void Solid::add_outputs(FieldSetup& setup, const Region& region) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "kernels.hpp"
+#include "seam/physics/conditions.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/registry.hpp"
 
@@ -25,14 +26,14 @@ class Solid final : public Physics {
   };
   void add_body_terms(FieldSetup& setup, const Region& region) const;
   void add_body_force(FieldSetup& setup) const;
-  void add_boundary(FieldSetup& setup, const Parameters& condition) const;
+  static void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& name);
   void add_outputs(FieldSetup& setup, const Region& region) const;
 
   Parameters parameters_;
   std::vector<Region> regions_;  ///< one at least
+  BodyForce body_force_;
   bool has_mass_;
   bool mixed_;
-  bool nodal_force_;  ///< the body force is interpolated from the nodes
   int order_;
 };
 

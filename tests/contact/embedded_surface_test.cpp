@@ -44,7 +44,7 @@ struct Stamp {
     surface.follow();
   }
   /// Of the points of a part on the stamp's lower side.
-  [[nodiscard]] double area(EmbeddedSurface::Part part) const {
+  [[nodiscard]] double area(EmbeddedSurface::Zone part) const {
     double sum = 0;
     for (const EmbeddedSurface::Element& element : surface.elements(part))
       for (std::size_t q = 0; q < element.own.weight.size(); ++q)

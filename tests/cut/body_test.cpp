@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Boundaries of meshes as surfaces of bodies.
-#include "seam/cut/body.hpp"
+#include "seam/surface/body.hpp"
 
 #include <catch2/catch.hpp>
 

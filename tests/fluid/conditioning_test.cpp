@@ -13,7 +13,7 @@
 
 #include "condition.hpp"
 #include "cut_flow.hpp"
-#include "seam/cut/body.hpp"
+#include "seam/surface/body.hpp"
 
 using namespace seam;
 using namespace seam::test;

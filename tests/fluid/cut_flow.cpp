@@ -6,15 +6,17 @@
 
 #include "couplings.hpp"
 #include "fluid.hpp"
-#include "seam/cut/body.hpp"
+#include "seam/cut/cut_interface.hpp"
 #include "seam/interface/matching.hpp"
+#include "seam/surface/body.hpp"
 
 namespace seam::test {
 
 Registry fluid_types() {
   Registry registry;
   register_linear_solvers(registry);
-  register_interfaces(registry);
+  register_matching(registry);
+  register_cut(registry);
   register_bodies(registry);
   fluid::declare_stabilisations(registry);
   fluid::declare_couplings(registry);

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "seam/run/checks.hpp"
+#include "seam/record/checks.hpp"
 
 using namespace seam;
 using namespace seam::test;

@@ -9,7 +9,7 @@
 #include "exact_flow.hpp"
 #include "seam/linear/mumps_solver.hpp"
 #include "seam/mesh/input/grid.hpp"
-#include "seam/run/error_norms.hpp"
+#include "seam/record/error_norms.hpp"
 #include "seam/solve/newton.hpp"
 
 /// Flows on the unit square or cube, set up as a scene does.

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "cut_flow.hpp"
-#include "seam/run/checks.hpp"
+#include "seam/record/checks.hpp"
 
 using namespace seam;
 using namespace seam::test;

@@ -29,8 +29,8 @@ std::unique_ptr<Interface> create(const std::string& kind, const std::string& ya
 }
 
 int number(const Function& function, const std::string& name) {
-  for (std::size_t p = 0; p < function.parts().size(); ++p)
-    if (function.parts()[p].name == name) return static_cast<int>(p);
+  for (std::size_t p = 0; p < function.members().size(); ++p)
+    if (function.members()[p].name == name) return static_cast<int>(p);
   throw std::logic_error("no part " + name);
 }
 
@@ -47,7 +47,7 @@ std::vector<Expression> part(const std::shared_ptr<const Function>& function, co
 std::vector<double> values(const Function& function, const std::string& name, const double* x, double t) {
   const int p = number(function, name);
   std::vector<double> result(
-      static_cast<std::size_t>(function.parts()[static_cast<std::size_t>(p)].components));
+      static_cast<std::size_t>(function.members()[static_cast<std::size_t>(p)].components));
   function.evaluate(p, x, t, result.data());
   return result;
 }

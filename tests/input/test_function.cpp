@@ -15,8 +15,8 @@ namespace {
 class Tide final : public Function {
  public:
   explicit Tide(double speed) : speed_(speed) {}
-  [[nodiscard]] const std::vector<Part>& parts() const override {
-    static const std::vector<Part> parts{{"level", 1}, {"flow", 2}};
+  [[nodiscard]] const std::vector<Member>& members() const override {
+    static const std::vector<Member> parts{{"level", 1}, {"flow", 2}};
     return parts;
   }
   void evaluate(int part, const double* x, double t, double* value) const override {

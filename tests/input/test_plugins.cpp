@@ -119,7 +119,8 @@ TEST_CASE("an older minor version is accepted, whatever its headers were") {
   REQUIRE(older != found.end());
   CHECK(older->info.abi_minor == 0);
   CHECK(older->info.headers.empty());
-  CHECK(older->why_not().empty());
+  // Of the first minor version there is no older one: then it is one of the same with other headers.
+  CHECK(older->why_not().empty() == (plugin_abi_minor > 0));
 }
 
 TEST_CASE("of two plugins with one name the first that can be used counts, and the other one is told") {

@@ -20,8 +20,8 @@ std::string good_text() { return read_text(folder / "good.yaml"); }
 /// A function whose parts have the same names as those of another one.
 class Wave : public Function {
  public:
-  [[nodiscard]] const std::vector<Part>& parts() const override {
-    static const std::vector<Part> all{{"height", 1}, {"push", 2}};
+  [[nodiscard]] const std::vector<Member>& members() const override {
+    static const std::vector<Member> all{{"height", 1}, {"push", 2}};
     return all;
   }
   void evaluate(int part, const double* /*x*/, double /*t*/, double* value) const override {

@@ -3,7 +3,7 @@
 
 #include "seam/linear/mumps_solver.hpp"
 #include "seam/mesh/input/grid.hpp"
-#include "seam/run/evaluate.hpp"
+#include "seam/record/evaluate.hpp"
 #include "seam/solve/newton.hpp"
 #include "seam/term/kernel_term.hpp"
 

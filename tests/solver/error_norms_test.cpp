@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Errors on a mesh that moves through space are measured where it is now.
-#include "seam/run/error_norms.hpp"
+#include "seam/record/error_norms.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "quantities.hpp"
 #include "seam/linear/mumps_solver.hpp"
 #include "seam/mesh/input/grid.hpp"
-#include "seam/run/error_norms.hpp"
+#include "seam/record/error_norms.hpp"
 #include "seam/solve/newton.hpp"
 
 /// A hyperelastic body whose exact solution is known: the body force follows from it by differentiation.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 
-#include "seam/run/series_units.hpp"
+#include "seam/record/series_units.hpp"
 
 TEST_CASE("units of integrals follow the dimension of space") {
   CHECK(seam::unit_in_space("m^d", 2) == "m^2");

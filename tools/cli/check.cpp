@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <memory>
 
+#include "all_ranks.hpp"
 #include "check_report.hpp"
 #include "command.hpp"
-#include "seam/run/simulation.hpp"
+#include "seam/run/session.hpp"
 #include "seam/scene/resolved.hpp"
-#include "session.hpp"
 
 namespace seam::cli {
 
@@ -53,12 +53,12 @@ Outcome check(const Options& options) {
   Outcome outcome;
   Diagnostics warnings = scene.warnings;
   if (!options.without_meshes) {
-    Simulation simulation(scene, registry, Communicator());
-    simulation.prepare();
-    simulation.require_held();
-    simulation.find_conflicts();
-    warnings = simulation.warnings();
-    outcome.contents = describe_contents(scene, registry, simulation);
+    Session session(scene, registry, Communicator());
+    session.prepare();
+    session.require_held();
+    session.find_conflicts();
+    warnings = session.warnings();
+    outcome.contents = describe_contents(registry, session);
   }
   if (!warnings.all().empty()) outcome.messages = warnings.text();
   return outcome;

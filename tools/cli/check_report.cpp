@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "seam/run/series_units.hpp"
+#include "seam/record/series_units.hpp"
 
 namespace seam::cli {
 namespace {
@@ -57,10 +57,10 @@ nlohmann::json one_diagnostic(const std::string& line) {
 
 }  // namespace
 
-nlohmann::json describe_contents(const Scene& scene, const Registry& registry, Simulation& simulation) {
+nlohmann::json describe_contents(const Registry& registry, Session& session) {
   nlohmann::json contents;
   contents["fields"] = nlohmann::json::array();
-  for (const FieldEntry& entry : simulation.problem().fields()) {
+  for (const FieldEntry& entry : session.problem().fields()) {
     const MeshData& mesh = entry.mesh->whole();
     auto unknowns = nlohmann::json::array();
     for (const Unknown& unknown : entry.field->unknowns())
@@ -75,16 +75,16 @@ nlohmann::json describe_contents(const Scene& scene, const Registry& registry, S
                                     {"order", mesh.order},
                                     {"nodes", mesh.node_count()}}}});
   }
-  const std::vector<std::string> names = simulation.results().names();
-  const auto units = series_units(scene, registry, simulation.problem(), names);
+  const std::vector<std::string> names = session.results().names();
+  const auto units = series_units(session.scene(), registry, session.problem(), names);
   contents["recorded"] = nlohmann::json::array();
   for (const std::string& name : names) {
     const auto unit = units.find(name);
     contents["recorded"].push_back(
         {{"name", name}, {"unit", unit == units.end() ? nlohmann::json() : nlohmann::json(unit->second)}});
   }
-  contents["unknowns"] = simulation.unknowns();
-  const CostEstimate cost = simulation.estimate();
+  contents["unknowns"] = session.unknowns();
+  const CostEstimate cost = session.estimate();
   contents["memory_bytes"] = cost.bytes;
   contents["seconds_per_step"] = cost.seconds_per_step;
   contents["includes_linear_solves"] = cost.has_linear;

@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "seam/run/simulation.hpp"
+#include "seam/run/session.hpp"
 
 namespace seam::cli {
 
-/// What a scene is, after Simulation::require_held(): `fields` with their unknowns, `recorded` series with
+/// What a scene is, after Session::require_held(): `fields` with their unknowns, `recorded` series with
 /// units (null where nobody declares one), `unknowns`, `memory_bytes`, `seconds_per_step`. Collective.
-nlohmann::json describe_contents(const Scene& scene, const Registry& registry, Simulation& simulation);
+nlohmann::json describe_contents(const Registry& registry, Session& session);
 
 /// The same for people.
 std::string contents_as_text(const nlohmann::json& contents);

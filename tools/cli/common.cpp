@@ -7,9 +7,10 @@
 #include "seam/base/memory.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/contact/contact_interface.hpp"
-#include "seam/cut/body.hpp"
+#include "seam/cut/cut_interface.hpp"
 #include "seam/interface/matching.hpp"
 #include "seam/linear/linear_solver.hpp"
+#include "seam/surface/body.hpp"
 
 namespace seam::cli {
 
@@ -43,7 +44,8 @@ Failure current_failure() {
 Registry builtin_types() {
   Registry registry;
   register_linear_solvers(registry);
-  register_interfaces(registry);
+  register_matching(registry);
+  register_cut(registry);
   register_contact(registry);
   register_bodies(registry);
   return registry;

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <memory>
 
+#include "all_ranks.hpp"
 #include "command.hpp"
-#include "seam/run/record.hpp"
-#include "session.hpp"
+#include "seam/record/run_record.hpp"
 
 namespace seam::cli {
 namespace {

@@ -12,6 +12,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "all_ranks.hpp"
 #include "command.hpp"
 #include "rank_runs.hpp"
 #include "seam/base/plugin_fault.hpp"
@@ -19,7 +20,6 @@
 #include "seam/conformance/plugin_checks.hpp"
 #include "seam/conformance/potential_checks.hpp"
 #include "seam/conformance/scene_checks.hpp"
-#include "session.hpp"
 
 namespace seam::cli {
 

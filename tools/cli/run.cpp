@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "all_ranks.hpp"
 #include "seam/base/policy.hpp"
 #include "seam/run/interruption.hpp"
-#include "session.hpp"
 
 namespace seam::cli {
 namespace {
@@ -50,6 +50,7 @@ int run(const SceneRun& options, bool is_root) {
 
 int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_root) {
   int passed = 0, bad = 0;
+  std::vector<CheckResult> all;
   for (const std::string& scene : scenes) {
     options.scene = scene;
     options.ignore_scenes_folder = true;
@@ -63,12 +64,14 @@ int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_roo
         fmt::print("{} {} ({} checks, {:.2f} s)\n{}", holds ? "ok  " : "FAIL", on_one_line(scene),
                    outcome.checks.size(), outcome.timings.total, check_table(outcome.checks));
       ++(holds ? passed : bad);
+      all.insert(all.end(), outcome.checks.begin(), outcome.checks.end());
     } catch (const std::exception&) {
       ++bad;
       const std::string message = agree_on_exception();
       if (is_root) fmt::print("FAIL {}\n{}\n", on_one_line(scene), message);
     }
   }
+  if (is_root && !all.empty()) fmt::print("checks that hold: {}\n", count_by_kind(all));
   if (is_root) fmt::print("{} passed, {} failed\n", passed, bad);
   return bad == 0 ? ok : failed;
 }

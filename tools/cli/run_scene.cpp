@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "all_ranks.hpp"
 #include "run.hpp"
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
@@ -13,7 +14,6 @@
 #include "seam/output/atomic_file.hpp"
 #include "seam/output/results_folder.hpp"
 #include "seam/run/interruption.hpp"
-#include "session.hpp"
 
 namespace seam::cli {
 namespace {
@@ -140,7 +140,7 @@ std::string record_failure(Simulation& simulation, ResultsFolder& folder, const 
   if (!simulation.has_state()) return text;
   return fmt::format(
       "{}\nThe last good state (t = {:.6g}, step {}) is in {}; `seam run --resume` starts from it", text,
-      simulation.time(), simulation.step_number(), folder.path().string());
+      simulation.session().state().time, simulation.session().state().step_number, folder.path().string());
 }
 
 /// Writes the summary even where the checks cannot be evaluated: what has been computed is not lost by a
@@ -202,9 +202,9 @@ SceneOutcome run_scene(const SceneRun& run) {
   if (!run.stop_after && !outcome.interruption)
     outcome.checks = judge(simulation, scene, outcome.results, folder, communicator);
   outcome.timings = simulation.timings();
-  outcome.unknowns = simulation.unknowns();
-  outcome.steps = simulation.step_number();
-  outcome.time = simulation.time();
+  outcome.unknowns = simulation.session().unknowns();
+  outcome.steps = simulation.session().state().step_number;
+  outcome.time = simulation.session().state().time;
   const nlohmann::json summary = write_summary(simulation, outcome.checks, folder, communicator);
   outcome.peak_memory = summary["peak_memory_bytes"];
   folder.finish(simulation.status());

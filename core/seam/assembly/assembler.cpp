@@ -17,7 +17,7 @@ namespace {
 std::vector<char> displacements(const Field& field, const Block& block) {
   std::vector<char> result(block.size, 0);
   for (const Unknown& unknown : field.unknowns()) {
-    const Field::Place place = field.place(unknown.name);
+    const Field::ComponentRange place = field.place(unknown.name);
     if (&field.blocks()[place.block] != &block || unknown.unit != "m") continue;
     std::fill_n(result.begin() + place.offset, place.components, char{1});
   }
@@ -36,7 +36,7 @@ Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicato
 void Assembler::add(const std::shared_ptr<const IntegrationDomain>& domain,
                     const std::vector<BoundTerm>& terms, ElementEvaluator::Role role) {
   Group group{domain, std::make_unique<ElementEvaluator>(*domain, terms, role), {}};
-  for (const auto& part : group.evaluator->parts())
+  for (const auto& part : group.evaluator->side_blocks())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       if (blocks_[b].block == part.states) group.block_of_part.push_back(static_cast<int>(b));
   groups_.push_back(std::move(group));
@@ -98,7 +98,7 @@ void Assembler::number_unknowns() {
 
 void Assembler::collect_elements(NodeGraph::Elements& elements) const {
   for (const Group& group : groups_) {
-    const auto& parts = group.evaluator->parts();
+    const auto& parts = group.evaluator->side_blocks();
     for (int e = 0; e < group.domain->size(); ++e) {
       for (std::size_t p = 0; p < parts.size(); ++p) {
         const int* nodes = group.domain->nodes(e, parts[p].side, parts[p].block);
@@ -218,8 +218,8 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
   for (int e = 0; e < group.domain->size(); ++e) {
     element.compute(e, at, with_tangent);
     element_nodes_.clear();
-    for (std::size_t p = 0; p < element.parts().size(); ++p) {
-      const auto& part = element.parts()[p];
+    for (std::size_t p = 0; p < element.side_blocks().size(); ++p) {
+      const auto& part = element.side_blocks()[p];
       const int* nodes = element.element().sides[part.side].nodes[part.block];
       for (int a = 0; a < part.nodes; ++a)
         element_nodes_.push_back(blocks_[group.block_of_part[p]].node_index[nodes[a]]);
@@ -231,7 +231,7 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
 
 void Assembler::scatter_vector(const ElementEvaluator& element) {
   const int* node = element_nodes_.data();
-  for (const auto& part : element.parts())
+  for (const auto& part : element.side_blocks())
     for (int a = 0; a < part.nodes; ++a, ++node) {
       if (*node < 0) continue;
       const int first = graph_.node(*node).first;
@@ -245,11 +245,11 @@ void Assembler::scatter_vector(const ElementEvaluator& element) {
 void Assembler::scatter_matrix(const ElementEvaluator& element) {
   const int size = element.size();
   const int* row_node = element_nodes_.data();
-  for (const auto& rows : element.parts())
+  for (const auto& rows : element.side_blocks())
     for (int a = 0; a < rows.nodes; ++a, ++row_node) {
       if (*row_node < 0) continue;
       const int* column_node = element_nodes_.data();
-      for (const auto& columns : element.parts())
+      for (const auto& columns : element.side_blocks())
         for (int b = 0; b < columns.nodes; ++b, ++column_node) {
           if (*column_node < 0) continue;
           const double* from =
@@ -265,7 +265,7 @@ void Assembler::scatter_matrix(const ElementEvaluator& element) {
 }
 
 void Assembler::add_free_block(int row_node, int column_node, const NodeBlock& block) {
-  const NodeGraph::Place at = graph_.place(row_node, column_node);
+  const NodeGraph::BlockEntries at = graph_.place(row_node, column_node);
   double* to = matrix_.value.data + at.first;
   for (int i = 0; i < block.rows; ++i, to += at.row_length)
     for (int j = 0; j < block.columns; ++j)
@@ -274,7 +274,7 @@ void Assembler::add_free_block(int row_node, int column_node, const NodeBlock& b
 
 /// Rows of prescribed unknowns are left out; their columns act on the way they have still to go.
 void Assembler::add_held_block(int row_node, int column_node, const NodeBlock& block) {
-  const NodeGraph::Place at = graph_.place(row_node, column_node);
+  const NodeGraph::BlockEntries at = graph_.place(row_node, column_node);
   const int first_row = graph_.node(row_node).first, first_column = graph_.node(column_node).first;
   double* to = matrix_.value.data + at.first;
   for (int i = 0; i < block.rows; ++i, to += at.row_length) {

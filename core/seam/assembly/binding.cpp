@@ -57,7 +57,7 @@ bool depends_on(const Term& term, int dim, std::size_t first, std::size_t count)
 void check_operand(const BoundTerm& bound, const IntegrationDomain& domain, std::size_t k, int components) {
   const Operand& operand = bound.operands[k];
   const Field& field = *domain.fields().at(operand.side);
-  const Field::Place place = call_plugin(
+  const Field::ComponentRange place = call_plugin(
       bound.where, [&] { return describe(bound, domain); }, [&] { return field.place(operand.unknown); });
   if (components > 0 && place.components != components)
     throw PluginFault(
@@ -108,7 +108,7 @@ void check_binding(const BoundTerm& bound, const IntegrationDomain& domain) {
   for (const Slot& slot : signature.inputs) {
     const Operand& operand = bound.operands[slot.operand];
     const Field& field = *fields[operand.side];
-    const Field::Place place = field.place(operand.unknown);
+    const Field::ComponentRange place = field.place(operand.unknown);
     const std::size_t size =
         static_cast<std::size_t>(signature.components[slot.operand]) * rows(slot.shape, dim);
     const int order = field.blocks()[place.block].time_order[place.offset];

@@ -65,7 +65,7 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   dim_ = domain.fields().front()->mesh().dimension();
   for (const BoundTerm& bound : terms) check_binding(bound, domain);
   find_parts(domain, terms);
-  operators_.resize(parts_.size());
+  operators_.resize(side_blocks_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
     Compiled compiled{bound, &s, {}, s.input_size(dim_), s.output_size(dim_) + s.values, s.column_size(dim_)};
@@ -74,11 +74,12 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
                                                  describe(bound, domain), compiled.columns, most_columns));
     for (std::size_t k = 0; k < s.components.size(); ++k) {
       const Operand& operand = bound.operands[k];
-      const Field::Place place = domain.fields().at(operand.side)->place(operand.unknown);
-      const auto part = std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) {
+      const Field::ComponentRange place = domain.fields().at(operand.side)->place(operand.unknown);
+      const auto part = std::find_if(side_blocks_.begin(), side_blocks_.end(), [&](const SideBlock& p) {
         return p.side == operand.side && p.block == place.block;
       });
-      compiled.operands.push_back({static_cast<int>(part - parts_.begin()), place.offset, place.components});
+      compiled.operands.push_back(
+          {static_cast<int>(part - side_blocks_.begin()), place.offset, place.components});
     }
     for (const auto* slots : {&s.inputs, &s.outputs})
       for (const Slot& slot : *slots) {
@@ -111,7 +112,7 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
         terms.empty() ? Location() : terms.front().where,
         fmt::format("the points of {}{} move with {} facets; {} at most are possible", domain.description(),
                     plugin_of(domain), movers_.size(), most_moves / (dim_ * dim_)));
-  for (Part& part : parts_) {
+  for (SideBlock& part : side_blocks_) {
     part.offset = size_;
     size_ += part.stride * part.components;
   }
@@ -120,13 +121,13 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
 /// The part of an operand's block, which is added if it is new.
 int ElementEvaluator::add_part(Field& field, const Operand& operand) {
   const int b = field.place(operand.unknown).block;
-  const auto known = std::find_if(parts_.begin(), parts_.end(),
-                                  [&](const Part& p) { return p.side == operand.side && p.block == b; });
-  if (known != parts_.end()) return static_cast<int>(known - parts_.begin());
+  const auto known = std::find_if(side_blocks_.begin(), side_blocks_.end(),
+                                  [&](const SideBlock& p) { return p.side == operand.side && p.block == b; });
+  if (known != side_blocks_.end()) return static_cast<int>(known - side_blocks_.begin());
   Block& block = field.blocks()[b];
   const int nodes = block.space->nodes_per_cell();
-  parts_.push_back({operand.side, b, &block, nodes, (nodes + 3) / 4 * 4, block.size, 0});
-  return static_cast<int>(parts_.size()) - 1;
+  side_blocks_.push_back({operand.side, b, &block, nodes, (nodes + 3) / 4 * 4, block.size, 0});
+  return static_cast<int>(side_blocks_.size()) - 1;
 }
 
 void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent) {
@@ -161,7 +162,7 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
 
 void ElementEvaluator::add_change_to_magnitude() {
   change_.assign(size_, 0.0);
-  for (const Part& part : parts_) {
+  for (const SideBlock& part : side_blocks_) {
     const int* nodes = element_.sides[part.side].nodes[part.block];
     for (int a = 0; a < part.nodes; ++a)
       for (int c = 0; c < part.components; ++c) {
@@ -188,8 +189,8 @@ const std::vector<double>& ElementEvaluator::compute_values(int index, const Tim
 
 void ElementEvaluator::compute_operators() {
   const int points = element_.points;
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const Part& part = parts_[p];
+  for (std::size_t p = 0; p < side_blocks_.size(); ++p) {
+    const SideBlock& part = side_blocks_[p];
     const ElementSide& side = element_.sides[part.side];
     const ShapeTable& table = *side.table[part.states->space->order() - 1];
     Operators& operators = operators_[p];
@@ -215,8 +216,8 @@ void ElementEvaluator::compute_operators() {
 }
 
 void ElementEvaluator::compute_normal_operators(int p) {
-  const ElementSide& side = element_.sides[parts_[p].side];
-  const ShapeTable& table = *side.table[parts_[p].states->space->order() - 1];
+  const ElementSide& side = element_.sides[side_blocks_[p].side];
+  const ShapeTable& table = *side.table[side_blocks_[p].states->space->order() - 1];
   Operators& operators = operators_[p];
   const int n = table.stride;
   operators.normal.assign(static_cast<std::size_t>(element_.points) * n, 0.0);
@@ -245,7 +246,7 @@ void ElementEvaluator::gather() {
   for (int level = 0; level < 5; ++level) {
     if (!level_used_[level]) continue;
     local_[level].assign(size_, 0.0);
-    for (const Part& part : parts_) {
+    for (const SideBlock& part : side_blocks_) {
       const NodalState& now = part.states->now;
       const NodalState& old = part.states->old;
       const std::vector<double>* from[5] = {&now.value, &now.rate, &now.second_rate, &old.value, &old.rate};
@@ -263,7 +264,7 @@ void ElementEvaluator::compute_inputs(const Compiled& term) {
   int at = 0;
   for (const Slot& slot : term.signature->inputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const Part& part = parts_[operand.part];
+    const SideBlock& part = side_blocks_[operand.part];
     const int r = rows(slot.shape, dim_), n = part.stride;
     const double* shape = operators_[operand.part].of(slot.shape);
     const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
@@ -283,7 +284,7 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   double factors[most_operands][3];
   for (std::size_t k = 0; k < term.operands.size(); ++k) {
     const BoundOperand& operand = term.operands[k];
-    const int order = parts_[operand.part].states->time_order[operand.offset];
+    const int order = side_blocks_[operand.part].states->time_order[operand.offset];
     factors[k][0] = at.initial_rates && order > 0 ? 0.0 : 1.0;
     factors[k][1] = at.initial_rates ? (order == 1 ? 1.0 : 0.0) : at.rate_factor;
     factors[k][2] = at.initial_rates ? (order == 2 ? 1.0 : 0.0) : at.second_rate_factor;
@@ -333,7 +334,7 @@ void ElementEvaluator::add_residual(const Compiled& term) {
   int at = 0;
   for (const Slot& slot : term.signature->outputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const Part& part = parts_[operand.part];
+    const SideBlock& part = side_blocks_[operand.part];
     const int r = rows(slot.shape, dim_), n = part.stride;
     const double* shape = operators_[operand.part].of(slot.shape);
     for (int c = 0; c < operand.components; ++c) {
@@ -360,7 +361,7 @@ void ElementEvaluator::add_tangent(const Compiled& term) {
     result.clear();
     for (const Slot& slot : slots) {
       const BoundOperand& operand = term.operands[slot.operand];
-      const Part& part = parts_[operand.part];
+      const SideBlock& part = side_blocks_[operand.part];
       result.push_back({operators_[operand.part].of(slot.shape), rows(slot.shape, dim_), part.stride,
                         operand.components, part.offset + operand.offset * part.stride});
     }

@@ -73,7 +73,7 @@ class ElementEvaluator {
                    Role role = Role::integrate);
 
   /// One block on one side.
-  struct Part {
+  struct SideBlock {
     int side;
     int block;
     Block* states;
@@ -82,7 +82,7 @@ class ElementEvaluator {
     int components;
     int offset;  ///< first row
   };
-  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] const std::vector<SideBlock>& side_blocks() const { return side_blocks_; }
   [[nodiscard]] int size() const { return size_; }
 
   /// Evaluates element `index` at the present states.
@@ -167,7 +167,7 @@ class ElementEvaluator {
 
   const IntegrationDomain* domain_;
   int dim_ = 2;
-  std::vector<Part> parts_;
+  std::vector<SideBlock> side_blocks_;
   std::vector<Compiled> terms_;
   std::vector<Operators> operators_;
   int size_ = 0;

@@ -8,8 +8,8 @@ namespace seam {
 /// Derivatives of the physical gradient G = D J^-1 (D: reference gradient, J: the map's Jacobian):
 /// dG = (dD - G dJ) J^-1.
 void ElementEvaluator::compute_gradient_change(int p) {
-  const ElementSide& side = element_.sides[parts_[p].side];
-  const ShapeTable& table = *side.table[parts_[p].states->space->order() - 1];
+  const ElementSide& side = element_.sides[side_blocks_[p].side];
+  const ShapeTable& table = *side.table[side_blocks_[p].states->space->order() - 1];
   const ShapeTable& map = *side.table[side.field->mesh().order() - 1];
   Operators& operators = operators_[p];
   const int n = table.stride;
@@ -81,7 +81,7 @@ void ElementEvaluator::compute_partner_motion() {
 }
 
 const double* ElementEvaluator::shape_change(const Slot& slot, int p, int q, int j, int i) const {
-  const Part& part = parts_[p];
+  const SideBlock& part = side_blocks_[p];
   if (slot.shape == Shape::value) {
     const ShapeTable& table = *element_.sides[part.side].table[part.states->space->order() - 1];
     return table.gradient_at(q) + static_cast<std::ptrdiff_t>(j) * part.stride;
@@ -95,7 +95,7 @@ void ElementEvaluator::compute_input_change(const Compiled& term) {
   int at = 0;
   for (const Slot& slot : term.signature->inputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const Part& part = parts_[operand.part];
+    const SideBlock& part = side_blocks_[operand.part];
     const int r = rows(slot.shape, dim_), n = part.stride;
     const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
     const std::vector<double>& motion = reference_motion_[part.side];
@@ -119,7 +119,7 @@ void ElementEvaluator::compute_input_change(const Compiled& term) {
 void ElementEvaluator::scatter_moves(int q, int row, int count, const double* rows) {
   const int* node = &element_.motion->node[static_cast<std::size_t>(q) * movers_.size() * dim_];
   for (const Mover& mover : movers_) {
-    const Part& body = parts_[mover.part];
+    const SideBlock& body = side_blocks_[mover.part];
     for (int k = 0; k < dim_; ++k, ++node)
       for (int c = 0; c < dim_; ++c, ++rows) {
         const int column = body.offset + (mover.offset + c) * body.stride + *node;
@@ -136,7 +136,7 @@ void ElementEvaluator::add_moves(const Compiled& term, const Add& add) {
   int at = 0;
   for (const Slot& slot : term.signature->outputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const Part& part = parts_[operand.part];
+    const SideBlock& part = side_blocks_[operand.part];
     const int directions = rows(slot.shape, dim_), n = part.stride;
     const double* shape = operators_[operand.part].of(slot.shape);
     for (std::size_t q = 0; q < static_cast<std::size_t>(element_.points); ++q)
@@ -171,7 +171,7 @@ void ElementEvaluator::add_motion_tangent(const Compiled& term) {
     add_outer(row, row.shape, change);
     if (force == 0) return;
     for (int j = 0; j < dim_; ++j) {
-      const double* speed = &reference_motion_[parts_[row.part].side][(q * dim_ + j) * moves];
+      const double* speed = &reference_motion_[side_blocks_[row.part].side][(q * dim_ + j) * moves];
       for (int m = 0; m < moves; ++m) change[m] = force * speed[m];
       add_outer(row, shape_change(*row.slot, row.part, static_cast<int>(q), j, row.direction), change);
     }

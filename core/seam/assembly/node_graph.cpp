@@ -131,7 +131,7 @@ void NodeGraph::exchange_rows(const Communicator& communicator) {
     received_unknowns_[rank].push_back(nodes_[mine].size);
     for (int i = 0; i < nodes_[mine].size; ++i)
       for (long long k = 0; k < row[1]; ++k) {
-        const Place at = place(mine, known.at(row[2 + 2 * k]));
+        const BlockEntries at = place(mine, known.at(row[2 + 2 * k]));
         for (long long j = 0; j < row[3 + 2 * k]; ++j)
           received_[rank].push_back(at.first + at.row_length * static_cast<std::size_t>(i) +
                                     static_cast<std::size_t>(j));

@@ -34,11 +34,11 @@ class NodeGraph {
   [[nodiscard]] const Node& node(int n) const { return nodes_[n]; }
   /// Position of the first entry of block (row, column), and the length of the row's scalar rows.
   /// The pair must be coupled.
-  struct Place {
+  struct BlockEntries {
     std::size_t first;
     std::size_t row_length;
   };
-  [[nodiscard]] Place place(int row, int column) const {
+  [[nodiscard]] BlockEntries place(int row, int column) const {
     std::size_t low = start_[row], high = start_[row + 1];
     while (high - low > 1) {
       const std::size_t middle = (low + high) / 2;

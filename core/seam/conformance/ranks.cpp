@@ -8,7 +8,7 @@
 
 #include "seam/conformance/finite_difference.hpp"
 #include "seam/conformance/scene_checks.hpp"
-#include "seam/run/checks.hpp"
+#include "seam/record/checks.hpp"
 #include "seam/scene/expression.hpp"
 
 namespace seam {

@@ -9,7 +9,7 @@
 
 #include "seam/base/plugin_fault.hpp"
 #include "seam/conformance/tangent.hpp"
-#include "seam/run/evaluate.hpp"
+#include "seam/record/evaluate.hpp"
 #include "seam/run/simulation.hpp"
 
 namespace seam {
@@ -124,11 +124,11 @@ RunOptions quiet_run(const std::filesystem::path& folder) {
 }
 
 /// Takes a step, goes back, lets a longer one fail, goes back, and takes the first one again.
-ConformanceCheck check_rewind(const Scene& scene, Simulation& half) {
+ConformanceCheck check_rewind(Session& half) {
   const std::string name = "rewind of a failed step";
   Problem& problem = half.problem();
   TimeStep& step = half.time_step();
-  const double from = half.time(), length = Stepper(scene).initial();
+  const double from = half.state().time, length = half.stepper().initial();
   const auto take = [&](double part, int iterations) {
     step.begin(from, from + part * length, half.last_step());
     for (int k = 0; k < iterations && step.iterate(); ++k) continue;
@@ -158,6 +158,7 @@ ConformanceCheck check_rewind(const Scene& scene, Simulation& half) {
 ConformanceCheck check_restart(const Scene& scene, const Registry& registry, Simulation& whole,
                                const Results& expected, const std::filesystem::path& folder) {
   Simulation second(scene, registry, Communicator());
+  const long steps = whole.session().state().step_number;
   RunOptions options = quiet_run(folder);
   options.resume = true;
   const Results& found = second.run(options);
@@ -168,25 +169,24 @@ ConformanceCheck check_restart(const Scene& scene, const Registry& registry, Sim
     if (other == found.series.end() || !same_bits(other->second, values))
       differs += (differs.empty() ? "" : ", ") + name;
   }
-  const Problem::Snapshot end = second.problem().snapshot(second.time()),
-                          expected_end = whole.problem().snapshot(whole.time());
+  const Problem::Snapshot end = second.problem().snapshot(second.session().state().time),
+                          expected_end = whole.problem().snapshot(whole.session().state().time);
   if (!same_bits(end, expected_end))
     differs += fmt::format("{}the final state, by {:.1e} relative", differs.empty() ? "" : ", ",
                            relative_difference(expected_end, end));
   return conformance_check(
       "restart", differs.empty(),
-      differs.empty() ? fmt::format("{} of {} steps after the restart, the same to the bit",
-                                    whole.step_number() - whole.step_number() / 2, whole.step_number())
-                      : "not as the uninterrupted run: " + differs);
+      differs.empty()
+          ? fmt::format("{} of {} steps after the restart, the same to the bit", steps - steps / 2, steps)
+          : "not as the uninterrupted run: " + differs);
 }
 
 /// At the start, where bodies are at rest and much is zero, as no shaken state is: the slope of sqrt(x) at 0
 /// is no number. Whether slopes are right there cannot be said: what has a kink has it at rest.
 ConformanceCheck check_start(const Scene& scene, const Registry& registry) {
-  Simulation start(scene, registry, Communicator());
+  Session start(scene, registry, Communicator());
   start.prepare();
-  const Stepper stepper(scene);
-  const TimePoint at = step_from(stepper, stepper.start());
+  const TimePoint at = step_from(start.stepper(), start.stepper().start());
   Problem& problem = start.problem();
   problem.assembler().assemble(at, true);
   // What is written for pictures, too: a run of the kit writes none.
@@ -227,16 +227,17 @@ std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& re
     begin("restart");
     Simulation half(scene, registry, Communicator());
     RunOptions options = quiet_run(folder / "half");
-    options.stop_after = whole.step_number() / 2;
+    const long steps = whole.session().state().step_number;
+    options.stop_after = steps / 2;
     const double time = half.run(options).time.back();
-    if (whole.step_number() > 1)
+    if (steps > 1)
       checks.push_back(check_restart(scene, registry, whole, results, folder / "half"));
     else
       checks.push_back({"restart", ConformanceCheck::Outcome::skipped, "the scene takes one step only"});
     begin("rewind of a failed step");
-    checks.push_back(check_rewind(scene, half));
+    checks.push_back(check_rewind(half.session()));
     begin("tangents");
-    const auto tangents = check_tangents(half.problem(), step_from(Stepper(scene), time));
+    const auto tangents = check_tangents(half.problem(), step_from(half.session().stepper(), time));
     checks.insert(checks.end(), tangents.begin(), tangents.end());
   } catch (...) {
     checks.push_back(conformance_check(doing, false, text_of_exception()));

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "seam/conformance/check.hpp"
-#include "seam/run/results.hpp"
+#include "seam/record/results.hpp"
 #include "seam/scene/scene.hpp"
 
 namespace seam {

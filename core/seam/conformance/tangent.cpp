@@ -26,7 +26,7 @@ std::vector<UnknownRows> rows_of_unknowns(const Problem& problem, const Assemble
   for (const FieldEntry& entry : problem.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
       UnknownRows& rows = result.emplace_back(UnknownRows{entry.name + "." + unknown.name, {}});
-      const Field::Place place = entry.field->place(unknown.name);
+      const Field::ComponentRange place = entry.field->place(unknown.name);
       for (int node = 0; node < entry.field->blocks()[place.block].space->owned_nodes(); ++node)
         for (int c = 0; c < place.components; ++c)
           if (const int row = assembler.row(*entry.field, place.block, node, place.offset + c); row >= 0)
@@ -57,7 +57,7 @@ double cell_size(const Space& space) {
 }
 
 double scale_of(const Field& field, const Unknown& unknown) {
-  const Field::Place place = field.place(unknown.name);
+  const Field::ComponentRange place = field.place(unknown.name);
   const Block& block = field.blocks()[place.block];
   if (unknown.unit == "m") return cell_size(*block.space);
   if (unknown.unit == "rad") return 1.0;

@@ -66,14 +66,15 @@ std::vector<Field*> ContactDomain::fields() const {
 
 bool ContactDomain::follow(double time) {
   std::vector<Pairing> before;
-  for (const Piece& piece : elements_) before.push_back({piece.facet, piece.opposite_group});
+  for (const PairPoints& piece : elements_) before.push_back({piece.facet, piece.opposite_group});
   elements_.clear();
   const OppositePoints opposite(*own_, other_.get(), opposite_at(time), window_);
   for (const int facet : facets_) add_facet(opposite, facet);
   double least_gap = 0;
-  for (const Piece& piece : elements_) least_gap = std::min(least_gap, *std::ranges::min_element(piece.gap));
+  for (const PairPoints& piece : elements_)
+    least_gap = std::min(least_gap, *std::ranges::min_element(piece.gap));
   passage_.check(opposite, own_->body().mesh().communicator().min(least_gap));
-  return !std::ranges::equal(before, elements_, [](const Pairing& pairing, const Piece& piece) {
+  return !std::ranges::equal(before, elements_, [](const Pairing& pairing, const PairPoints& piece) {
     return pairing == Pairing{piece.facet, piece.opposite_group};
   });
 }
@@ -95,7 +96,7 @@ void ContactDomain::add_facet(const OppositePoints& opposite, int facet) {
       for (std::size_t m = 0; m < growth.size(); ++m) change.relative_weight[m] += growth[m];
       slide.resize(static_cast<std::size_t>(dim - 1) * moves, 0.0);
 
-      Piece& to = piece(facet, other_ ? other_->group(hit->facet) : -1);
+      PairPoints& to = piece(facet, other_ ? other_->group(hit->facet) : -1);
       to.own.weight.push_back(area * stretch.length() * rule_->weights[q]);
       own_->to_cell(facet, on_facet.data(), to.own.reference);
       to.normal.insert(to.normal.end(), normal.begin(), normal.begin() + dim);
@@ -116,10 +117,10 @@ void ContactDomain::add_facet(const OppositePoints& opposite, int facet) {
 }
 
 /// The element of a facet and a cell opposite to it, among those of the facet under work.
-ContactDomain::Piece& ContactDomain::piece(int facet, int opposite_group) {
+ContactDomain::PairPoints& ContactDomain::piece(int facet, int opposite_group) {
   for (auto found = elements_.rbegin(); found != elements_.rend() && found->facet == facet; ++found)
     if (found->opposite_group == opposite_group) return *found;
-  Piece& added = elements_.emplace_back();
+  PairPoints& added = elements_.emplace_back();
   added.facet = facet;
   added.group = own_->group(facet);
   added.opposite_group = opposite_group;
@@ -127,7 +128,7 @@ ContactDomain::Piece& ContactDomain::piece(int facet, int opposite_group) {
 }
 
 void ContactDomain::fill(int index, Element& element) const {
-  const Piece& piece = elements_[index];
+  const PairPoints& piece = elements_[index];
   element.dimension = own_->body().mesh().dimension();
   element.points = static_cast<int>(piece.own.weight.size());
   element.sides.resize(other_ ? 2 : 1);
@@ -156,7 +157,7 @@ void ContactDomain::fill(int index, Element& element) const {
 }
 
 const int* ContactDomain::nodes(int index, int side, int block) const {
-  const Piece& piece = elements_[index];
+  const PairPoints& piece = elements_[index];
   return side == 0 ? own_->cell(piece.group).nodes[block].data()
                    : other_->cell(piece.opposite_group).nodes[block].data();
 }

@@ -10,8 +10,8 @@
 #include "seam/contact/opposite_points.hpp"
 #include "seam/contact/passage.hpp"
 #include "seam/interface/begins_steps.hpp"
-#include "seam/interface/body_surface.hpp"
 #include "seam/interface/cell_constant.hpp"
+#include "seam/surface/body_surface.hpp"
 
 namespace seam {
 
@@ -37,7 +37,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] std::string description() const override;
 
  private:
-  struct Piece {
+  struct PairPoints {
     int facet, group, opposite_group;
     CutPoints own, opposite;
     std::vector<double> normal, gap;
@@ -50,7 +50,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] Surface opposite_at(double time) const { return other_ ? other_->now() : obstacle_(time); }
   void measure_cells();
   void add_facet(const OppositePoints& opposite, int facet);
-  Piece& piece(int facet, int opposite_group);
+  PairPoints& piece(int facet, int opposite_group);
 
   std::shared_ptr<const BodySurface> own_, other_;
   MovingSurface obstacle_;
@@ -60,7 +60,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   std::vector<int> facets_;           ///< of this rank's cells
   std::map<int, double> trace_size_;  ///< of these: volume of the cell over the area of its face, m
   std::vector<Operand> movers_;
-  std::vector<Piece> elements_;
+  std::vector<PairPoints> elements_;
   struct Constant {
     int side, number;
   };

@@ -123,8 +123,8 @@ std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup
   const int number = cut.add_body([own = both.own](double) { return own->now(); });
   const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,
                                                          both.range, facet_degree(setup));
-  const auto part = [&](EmbeddedSurface::Part which) {
-    return std::make_shared<EmbeddedPart>(surface, which);
+  const auto part = [&](EmbeddedSurface::Zone which) {
+    return std::make_shared<EmbeddedZone>(surface, which);
   };
   return {{"free", part(EmbeddedSurface::free)},
           {"near", part(EmbeddedSurface::near)},

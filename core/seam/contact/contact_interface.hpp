@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "seam/cut/moving_body.hpp"
 #include "seam/interface/interface.hpp"
+#include "seam/surface/moving_body.hpp"
 
 namespace seam {
 

@@ -118,7 +118,7 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
       cell, degree_, rule, &motion, part, [&](int body, int facet, double from, double to) {
         return body == number_ ? divide(facet, from, to, opposite, inner[facet]) : std::vector<double>{};
       });
-  std::map<std::pair<int, int>, std::pair<Part, int>> place;  // of an element, by the groups of its points
+  std::map<std::pair<int, int>, std::pair<Zone, int>> place;  // of an element, by the groups of its points
   for (int q = 0; q < rule.count(); ++q) {
     if (rule.body[q] != number_) continue;
     const auto at = static_cast<std::size_t>(q);
@@ -140,7 +140,7 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
         hit = opposite.far_hit(facet, on_facet, std::max(stretch.from.facet, stretch.to.facet));
     }
     const int group = own_->group(facet), other_group = hit ? other_->group(hit->facet) : -1;
-    const Part which = hit ? near : free;
+    const Zone which = hit ? near : free;
     const auto [found, is_new] = place.try_emplace({group, other_group}, which, elements_[which].size());
     if (is_new) {
       Element& added = elements_[which].emplace_back();

@@ -10,14 +10,14 @@
 #include "seam/contact/passage.hpp"
 #include "seam/cut/field_cut.hpp"
 #include "seam/interface/begins_steps.hpp"
-#include "seam/interface/body_surface.hpp"
 #include "seam/interface/cell_constant.hpp"
+#include "seam/surface/body_surface.hpp"
 
 namespace seam {
 
 /// All of a body's surface in a field that it is cut out of, where it may come to touch another surface, or
 /// itself: the consistent pair of domain and interface of thesis 6.2.1.2. Every point of the surface is
-/// in exactly one of three parts. What the field's mesh has of the surface is wet; there, a point may have an
+/// in exactly one of three zones. What the field's mesh has of the surface is wet; there, a point may have an
 /// opposite one or not. The rest, inside of the other body or in a part of the field too small to be kept, is
 /// closed; it counts where it has an opposite point.
 class EmbeddedSurface {
@@ -27,8 +27,8 @@ class EmbeddedSurface {
   EmbeddedSurface(Field& field, const FieldCut& cut, int number, std::shared_ptr<const BodySurface> own,
                   std::shared_ptr<const BodySurface> other, ContactWindow window, int degree);
 
-  enum Part { free, near, closed };
-  static constexpr int part_count = 3;
+  enum Zone { free, near, closed };
+  static constexpr int zone_count = 3;
 
   /// Points that share the cells on all sides. Of closed ones side 0, the field, and sides 3 and 4, the two
   /// bodies, are met elsewhere, at the nearest wet point: there field and bodies are evaluated for the closed
@@ -40,7 +40,7 @@ class EmbeddedSurface {
     double trace_size = 0;
     PointMotion motion;
   };
-  [[nodiscard]] const std::vector<Element>& elements(Part part) const { return elements_[part]; }
+  [[nodiscard]] const std::vector<Element>& elements(Zone zone) const { return elements_[zone]; }
 
   /// Finds all points anew. Collective. @return true when elements are others than before
   /// @throws StepRefused when the surface has passed through the other one, so that no contact is seen
@@ -103,21 +103,21 @@ class EmbeddedSurface {
   ContactWindow window_;
   Passage passage_;
   const Quadrature* rule_;  ///< on closed facets
-  std::array<std::vector<Element>, part_count> elements_;
+  std::array<std::vector<Element>, zone_count> elements_;
   std::vector<Wet> wet_;                         ///< of this rank
   std::array<std::vector<Edge>, 2> wet_points_;  ///< of this rank, free and near
 };
 
-/// One of the parts as a domain of integration.
-class EmbeddedPart final : public IntegrationDomain, public BeginsSteps {
+/// One of the zones as a domain of integration.
+class EmbeddedZone final : public IntegrationDomain, public BeginsSteps {
  public:
-  EmbeddedPart(std::shared_ptr<EmbeddedSurface> surface, EmbeddedSurface::Part part);
-  [[nodiscard]] int size() const override { return static_cast<int>(surface_->elements(part_).size()); }
+  EmbeddedZone(std::shared_ptr<EmbeddedSurface> surface, EmbeddedSurface::Zone zone);
+  [[nodiscard]] int size() const override { return static_cast<int>(surface_->elements(zone_).size()); }
   [[nodiscard]] std::vector<Field*> fields() const override;
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
-  [[nodiscard]] int swept_side() const override { return part_ == EmbeddedSurface::closed ? -1 : 0; }
+  [[nodiscard]] int swept_side() const override { return zone_ == EmbeddedSurface::closed ? -1 : 0; }
   /// The first part finds the points of all.
   bool follow(double time) override;
   void begin_step(double from) override;
@@ -127,7 +127,7 @@ class EmbeddedPart final : public IntegrationDomain, public BeginsSteps {
 
  private:
   std::shared_ptr<EmbeddedSurface> surface_;
-  EmbeddedSurface::Part part_;
+  EmbeddedSurface::Zone zone_;
   std::vector<Operand> movers_;
   struct Constant {
     int side, number;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "seam/cut/surface.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam {
 

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "seam/cut/lattice.hpp"
-#include "seam/cut/surface.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam {
 

@@ -8,7 +8,7 @@
 #include "seam/contact/facet_search.hpp"
 #include "seam/contact/gap_motion.hpp"
 #include "seam/cut/lattice.hpp"
-#include "seam/interface/body_surface.hpp"
+#include "seam/surface/body_surface.hpp"
 
 namespace seam {
 

@@ -29,26 +29,26 @@ void append_rest(Polygon polygon, const Polygon& other, const Vector& normal, st
   }
 }
 
-bool in_one_plane(const WetPart& a, const WetPart& b, double size) {
+bool in_one_plane(const SideSimplex& a, const SideSimplex& b, double size) {
   return std::abs(dot(a.normal, b.normal)) > 1 - flush &&
          std::abs(dot(a.normal, b.corner[0] - a.corner[0])) < flush * size;
 }
 
-Polygon corners(const WetPart& w) { return {w.corner.begin(), w.corner.end()}; }
+Polygon corners(const SideSimplex& w) { return {w.corner.begin(), w.corner.end()}; }
 
 /// A part of a cell's face, counter-clockwise seen along its normal, out of the cell.
-struct Part {
+struct FacePolygon {
   Polygon polygon;
   Vector normal;
 };
 
 /// What the first has of a face and the second has not.
-std::vector<Part> difference(const std::vector<WetPart>& first, const std::vector<WetPart>& second,
-                             double size) {
-  std::vector<Part> result;
-  for (const WetPart& a : first) {
+std::vector<FacePolygon> difference(const std::vector<SideSimplex>& first,
+                                    const std::vector<SideSimplex>& second, double size) {
+  std::vector<FacePolygon> result;
+  for (const SideSimplex& a : first) {
     std::vector<Polygon> left{turned_to(a.normal, corners(a))};
-    for (const WetPart& b : second) {
+    for (const SideSimplex& b : second) {
       if (!in_one_plane(a, b, size)) continue;
       std::vector<Polygon> next;
       for (Polygon& p : left) append_rest(std::move(p), turned_to(a.normal, corners(b)), a.normal, next);
@@ -60,11 +60,11 @@ std::vector<Part> difference(const std::vector<WetPart>& first, const std::vecto
 }
 
 /// What both have of a face, as a part of the first cell's.
-std::vector<Part> intersection(const std::vector<WetPart>& first, const std::vector<WetPart>& second,
-                               double size) {
-  std::vector<Part> result;
-  for (const WetPart& a : first)
-    for (const WetPart& b : second)
+std::vector<FacePolygon> intersection(const std::vector<SideSimplex>& first,
+                                      const std::vector<SideSimplex>& second, double size) {
+  std::vector<FacePolygon> result;
+  for (const SideSimplex& a : first)
+    for (const SideSimplex& b : second)
       if (in_one_plane(a, b, size))
         result.push_back(
             {common_part(turned_to(a.normal, corners(a)), turned_to(a.normal, corners(b)), a.normal, 0),
@@ -104,8 +104,8 @@ class FaceAgreement {
     const double own = area_of(cell, face), theirs = area_of(other, back);
     if (std::abs(own - theirs) <= negligible * size * size) return false;
     for (const int c : {cell, other}) make_united(c);
-    const std::vector<WetPart> here = wet_parts(cell, face), there = wet_parts(other, back);
-    const std::vector<Part> both = intersection(here, there, size);
+    const std::vector<SideSimplex> here = wet_parts(cell, face), there = wet_parts(other, back);
+    const std::vector<FacePolygon> both = intersection(here, there, size);
     const std::vector<int> facets = facets_at(cell, other);
     if (facets.empty()) return false;
     lay(cell, face, both, 1, difference(here, there, size), facets);
@@ -113,18 +113,18 @@ class FaceAgreement {
     return true;
   }
 
-  [[nodiscard]] std::vector<WetPart> wet_parts(int cell, int face) const {
+  [[nodiscard]] std::vector<SideSimplex> wet_parts(int cell, int face) const {
     const auto found = index_.find(cell);
-    std::vector<WetPart> result;
+    std::vector<SideSimplex> result;
     if (found == index_.end() && state_[cell] == CellState::body) return result;
-    for (const WetPart& w :
+    for (const SideSimplex& w :
          found == index_.end() ? whole_cell(input_.outline, cell).wet : cells_[found->second].wet)
       if (w.face == face) result.push_back(w);
     return result;
   }
   [[nodiscard]] double area_of(int cell, int face) const {
     double sum = 0;
-    for (const WetPart& w : wet_parts(cell, face)) sum += w.area;
+    for (const SideSimplex& w : wet_parts(cell, face)) sum += w.area;
     return sum;
   }
 
@@ -154,15 +154,15 @@ class FaceAgreement {
 
   /// What a cell has of a face, and the one behind it has not, becomes interface of the cell.
   /// @param both what remains. @param turn -1 where that is seen from the other side
-  void lay(int cell, int face, const std::vector<Part>& both, int turn, const std::vector<Part>& alone,
-           const std::vector<int>& facets) {
+  void lay(int cell, int face, const std::vector<FacePolygon>& both, int turn,
+           const std::vector<FacePolygon>& alone, const std::vector<int>& facets) {
     const auto found = index_.find(cell);
     if (found == index_.end()) return;  // all of it is in a body
     CutCell& receiver = cells_[found->second];
-    std::erase_if(receiver.wet, [&](const WetPart& w) { return w.face == face; });
-    for (const Part& p : both)
+    std::erase_if(receiver.wet, [&](const SideSimplex& w) { return w.face == face; });
+    for (const FacePolygon& p : both)
       append_wet(face, turn * p.normal, turned_to(turn * p.normal, p.polygon), receiver.wet);
-    for (const Part& p : alone) add_pieces(p.polygon, p.normal, facets, receiver);
+    for (const FacePolygon& p : alone) add_pieces(p.polygon, p.normal, facets, receiver);
     measure(input_.outline, receiver);
   }
 

@@ -32,7 +32,7 @@ int former_part(const PartLayout& before, const CutMesh& cut, int cell, int part
 }
 
 int set_at(const PartLayout& layout, int order, int cell, int part, int node) {
-  const PartLayout::Part* listed = layout.part(cell, part);
+  const PartLayout::Sets* listed = layout.part(cell, part);
   return listed ? listed->set[order - 1][node] : 0;
 }
 

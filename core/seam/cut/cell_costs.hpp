@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "seam/cut/surface.hpp"
 #include "seam/mesh/mesh.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam {
 

@@ -19,9 +19,9 @@ constexpr double negligible = 1e-12;
 /// Which part the pieces and the wet faces of a cell belong to.
 struct Assignment {
   int count = 0;
-  std::vector<int> piece;      ///< [piece], -1 unknown
-  std::vector<WetPart> wet;    ///< signed parts of the cell's sides ...
-  std::vector<int> wet_owner;  ///< ... and whose they are
+  std::vector<int> piece;        ///< [piece], -1 unknown
+  std::vector<SideSimplex> wet;  ///< signed parts of the cell's sides ...
+  std::vector<int> wet_owner;    ///< ... and whose they are
 };
 
 double length(const Vector& a) { return std::sqrt(dot(a, a)); }
@@ -50,7 +50,7 @@ Assignment chains(const CutCell& cell, double size) {
   std::vector<int> index;  // of the piece, or of the wet side behind all pieces
   const int pieces = static_cast<int>(cell.pieces.size());
   for (int k = 0; k < pieces; ++k) {
-    const Piece& p = cell.pieces[k];
+    const FacetPiece& p = cell.pieces[k];
     if (p.handed_over) continue;
     stretches.push_back({cell.points[p.first + 1], cell.points[p.first], false});
     index.push_back(k);
@@ -127,7 +127,7 @@ class LeafParts {
       if (number_.try_emplace(sets_.root(k), result.count).second) ++result.count;
     for (int k = 0; k < static_cast<int>(leaves_.size()); ++k) add_wet(k, result);
     std::map<int, int> film;  // by face
-    for (const Piece& p : cell_.pieces) {
+    for (const FacetPiece& p : cell_.pieces) {
       const int side = p.handed_over ? -1 : covered_side(p);
       if (side < 0) {
         result.piece.push_back(p.handed_over ? -1 : part_behind(p));
@@ -162,7 +162,7 @@ class LeafParts {
   }
   /// The side of the cell in whose plane a piece lies so that the wet part between them has no thickness, -1
   /// where there is none. That film is a part of its own: it belongs to what lies behind the side.
-  [[nodiscard]] int covered_side(const Piece& piece) const {
+  [[nodiscard]] int covered_side(const FacetPiece& piece) const {
     for (int s = outline_.first_side[cell_.cell]; s < outline_.first_side[cell_.cell + 1]; ++s) {
       const Vector normal = side_normal(outline_, outline_.sides[s]);
       const Vector& origin = outline_.position[outline_.sides[s].vertex[0]];
@@ -174,7 +174,7 @@ class LeafParts {
     return -1;
   }
   /// The part that a piece of the interface bounds: that with most of it as its face.
-  [[nodiscard]] int part_behind(const Piece& piece) {
+  [[nodiscard]] int part_behind(const FacetPiece& piece) {
     const Polygon polygon(cell_.points.begin() + piece.first,
                           cell_.points.begin() + piece.first + piece.count);
     std::map<int, double> shared;
@@ -200,14 +200,14 @@ class LeafParts {
 
 /// In space the wet part is worth dividing only where interfaces face each other.
 bool may_be_parted(const CutCell& cell) {
-  for (const Piece& a : cell.pieces)
-    for (const Piece& b : cell.pieces)
+  for (const FacetPiece& a : cell.pieces)
+    for (const FacetPiece& b : cell.pieces)
       if (dot(a.normal, b.normal) < -0.1) return true;
   return false;
 }
 
-void append(const CutCell& from, const Piece& piece, CutCell& to) {
-  Piece copy = piece;
+void append(const CutCell& from, const FacetPiece& piece, CutCell& to) {
+  FacetPiece copy = piece;
   copy.first = static_cast<int>(to.points.size());
   to.points.insert(to.points.end(), from.points.begin() + piece.first,
                    from.points.begin() + piece.first + piece.count);
@@ -219,7 +219,7 @@ int nearest_part(const std::vector<CellPart>& parts, const Vector& x) {
   int nearest = 0;
   double least = std::numeric_limits<double>::max();
   for (std::size_t p = 0; p < parts.size(); ++p)
-    for (const WetPart& w : parts[p].cut.wet) {
+    for (const SideSimplex& w : parts[p].cut.wet) {
       if ((parts[p].cut.dry_faces >> w.face & 1U) == 0) continue;
       const Vector middle = 1.0 / 3 * (w.corner[0] + w.corner[1] + w.corner[2]);
       if (const double distance = length(middle - x); distance < least) {
@@ -253,7 +253,7 @@ std::vector<CellPart> divide(const Outline& outline, const CutCell& cell, const 
   const int rest = largest(parts);
   for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
     if (assignment.piece[k] >= 0) continue;
-    const Piece& p = cell.pieces[k];
+    const FacetPiece& p = cell.pieces[k];
     append(cell, p, parts[p.handed_over ? nearest_part(parts, cell.points[p.first]) : rest].cut);
   }
   for (std::size_t w = 0; w < assignment.wet.size(); ++w)
@@ -304,9 +304,9 @@ std::vector<CellPart> connected_parts(const Outline& outline, const CutCell& cel
 bool touch(int dimension, const CutCell& first, int first_face, const CutCell& second, int second_face,
            double size) {
   double common = 0;
-  for (const WetPart& a : first.wet) {
+  for (const SideSimplex& a : first.wet) {
     if (a.face != first_face) continue;
-    for (const WetPart& b : second.wet) {
+    for (const SideSimplex& b : second.wet) {
       if (b.face != second_face) continue;
       if (dimension == 3) {
         common += common_area({a.corner.begin(), a.corner.end()}, {b.corner.begin(), b.corner.end()}, size);
@@ -334,7 +334,7 @@ bool contains(int dimension, const CutCell& cell, const Vector& x) {
 
 void merge_parts(const Outline& outline, std::vector<CellPart>& parts, int from, int to) {
   CutCell& target = parts[to].cut;
-  for (const Piece& piece : parts[from].cut.pieces) append(parts[from].cut, piece, target);
+  for (const FacetPiece& piece : parts[from].cut.pieces) append(parts[from].cut, piece, target);
   target.wet.insert(target.wet.end(), parts[from].cut.wet.begin(), parts[from].cut.wet.end());
   measure(outline, target);
   parts[to].centre = wet_centre(outline.dimension, target, outline.centre(target.cell));

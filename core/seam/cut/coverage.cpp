@@ -80,8 +80,8 @@ Coverage::Coverage(const Mesh& mesh, const Outline& outline, const std::vector<L
 bool Coverage::overlap_in(const Outline& outline, const CutCell& cell) const {
   if (cell.pieces.empty()) return false;
   const int body = cell.pieces[0].body;
-  if (windings_.size() > 1 &&
-      std::any_of(cell.pieces.begin(), cell.pieces.end(), [&](const Piece& p) { return p.body != body; }))
+  if (windings_.size() > 1 && std::any_of(cell.pieces.begin(), cell.pieces.end(),
+                                          [&](const FacetPiece& p) { return p.body != body; }))
     return true;
   for (int s = outline.first_side[cell.cell]; s < outline.first_side[cell.cell + 1]; ++s)
     for (int k = 0; k < outline.dimension; ++k) {

@@ -20,7 +20,7 @@ int facet_degree(const InterfaceSetup& setup, int side) {
 
 void CutBoundary::update(const Field& field) {
   if (&field != field_) return;
-  pieces_.clear();
+  groups_.clear();
   if (!field.cut()) return;
   InterfaceRule rule;
   InterfaceMotion motion;
@@ -28,18 +28,18 @@ void CutBoundary::update(const Field& field) {
     if (cell >= field.mesh().owned_cells() || !field.active_cells()[cell]) continue;
     for (int part = 0; part < field.parts(cell); ++part) {
       field.cut()->interface_rule(cell, degree_, rule, !movers().empty() ? &motion : nullptr, part);
-      add_pieces(cell, part, rule, motion);
+      add_groups(cell, part, rule, motion);
     }
   }
 }
 
-void CutBoundary::add_pieces(int cell, int part, const InterfaceRule& rule, const InterfaceMotion& motion) {
+void CutBoundary::add_groups(int cell, int part, const InterfaceRule& rule, const InterfaceMotion& motion) {
   const auto dim = static_cast<std::size_t>(field_->mesh().dimension());
   std::map<int, std::vector<int>> points;  // by group
   for (int q = 0; q < rule.count(); ++q)
     if (rule.body[q] == body_) points[group(rule.facet[q])].push_back(q);
   for (const auto& [group, of_group] : points) {
-    Piece& piece = pieces_.emplace_back();
+    PointGroup& piece = groups_.emplace_back();
     piece.cell = cell;
     piece.part = part;
     piece.group = group;
@@ -57,7 +57,7 @@ void CutBoundary::add_pieces(int cell, int part, const InterfaceRule& rule, cons
 }
 
 void CutBoundary::fill(int index, Element& element) const {
-  const Piece& piece = pieces_[index];
+  const PointGroup& piece = groups_[index];
   element.dimension = field_->mesh().dimension();
   element.points = static_cast<int>(piece.weight.size());
   if (element.sides.empty()) element.sides.resize(1);
@@ -72,7 +72,7 @@ void CutBoundary::fill(int index, Element& element) const {
 }
 
 const int* CutBoundary::nodes(int index, int, int block) const {
-  return field_->cell_nodes(block, pieces_[index].cell, pieces_[index].part);
+  return field_->cell_nodes(block, groups_[index].cell, groups_[index].part);
 }
 
 std::string CutBoundary::description() const {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "seam/assembly/domains.hpp"
+#include "seam/assembly/remote_cells.hpp"
 #include "seam/cut/field_cut.hpp"
 #include "seam/interface/interface.hpp"
-#include "seam/interface/remote_cells.hpp"
 
 namespace seam {
 
@@ -23,7 +23,7 @@ class CutBoundary : public IntegrationDomain {
   /// @param body its number among them
   /// @param degree to integrate exactly along a facet
   CutBoundary(Field& field, const FieldCut& cut, int body, int degree);
-  [[nodiscard]] int size() const override { return static_cast<int>(pieces_.size()); }
+  [[nodiscard]] int size() const override { return static_cast<int>(groups_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
@@ -32,7 +32,7 @@ class CutBoundary : public IntegrationDomain {
 
  protected:
   /// All points in one cell that share a group.
-  struct Piece : CutPoints {
+  struct PointGroup : CutPoints {
     int group = 0;
     std::vector<double> normal;  ///< [point][dimension], out of the field
     CutPoints partner;           ///< of side 1
@@ -46,18 +46,18 @@ class CutBoundary : public IntegrationDomain {
   }
   /// Sets up side 1 of a piece. @param points of the rule that belong to it
   /// @param motion of the rule's points; empty unless the domain has movers
-  virtual void add_partner(Piece& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
+  virtual void add_partner(PointGroup& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
                            const std::vector<int>& points) const {
     (void)piece, (void)rule, (void)motion, (void)points;
   }
-  [[nodiscard]] const Piece& piece(int index) const { return pieces_[index]; }
+  [[nodiscard]] const PointGroup& piece(int index) const { return groups_[index]; }
 
  private:
-  void add_pieces(int cell, int part, const InterfaceRule& rule, const InterfaceMotion& motion);
+  void add_groups(int cell, int part, const InterfaceRule& rule, const InterfaceMotion& motion);
   Field* field_;
   const FieldCut* cut_;
   int body_, degree_;
-  std::vector<Piece> pieces_;
+  std::vector<PointGroup> groups_;
 };
 
 }  // namespace seam

@@ -2,6 +2,8 @@
 #include "seam/cut/cut_interface.hpp"
 
 #include "seam/cut/cut_boundary.hpp"
+#include "seam/cut/embedded_interface.hpp"
+#include "seam/cut/level_set.hpp"
 
 namespace seam {
 
@@ -22,6 +24,16 @@ std::vector<InterfacePart> CutInterface::build(InterfaceSetup& setup) const {
   FieldCut& cut = setup.cut(0);
   return {{"", std::make_shared<CutBoundary>(field, cut, cut.add_body(body_.surface({field.mesh(), meshes})),
                                              facet_degree(setup))}};
+}
+
+void register_cut(Registry& registry) {
+  registry.add<Interface>(
+      "interface", "cut", CutInterface::schema(),
+      [](const Parameters& p, const Registry& types) { return std::make_unique<CutInterface>(p, types); });
+  registry.add<Interface>(
+      "interface", "embedded", EmbeddedInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<EmbeddedInterface>(p); });
+  register_level_set(registry);
 }
 
 }  // namespace seam

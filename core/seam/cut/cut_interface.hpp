@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "seam/cut/field_cut.hpp"
-#include "seam/cut/moving_body.hpp"
 #include "seam/interface/interface.hpp"
+#include "seam/surface/moving_body.hpp"
 
 namespace seam {
 
@@ -25,5 +25,8 @@ class CutInterface final : public Interface {
   Parameters parameters_;
   MovingBody body_;
 };
+
+/// Registers the interfaces "cut" and "embedded" and the body "level_set".
+void register_cut(Registry& registry);
 
 }  // namespace seam

@@ -85,7 +85,7 @@ bool are_apart(const Facets& facets) {
 /// From now on pieces are those of the surfaces that were given, not of the solids that these make up.
 void name_surfaces(const Facets& facets, std::vector<CutCell>& cells) {
   for (CutCell& c : cells)
-    for (Piece& p : c.pieces) {
+    for (FacetPiece& p : c.pieces) {
       const auto& [body, facet] = facets.origin[p.body][p.facet];
       p.body = body;
       p.facet = facet;

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "seam/cut/interface_motion.hpp"
-#include "seam/cut/surface.hpp"
 #include "seam/cut/wet_parts.hpp"
 #include "seam/mesh/mesh.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam {
 

@@ -7,7 +7,7 @@
 
 #include "seam/cut/cut_boundary.hpp"
 #include "seam/cut/field_cut.hpp"
-#include "seam/interface/body_surface.hpp"
+#include "seam/surface/body_surface.hpp"
 
 namespace seam {
 namespace {
@@ -56,7 +56,7 @@ class EmbeddedBoundary final : public CutBoundary {
 
  private:
   [[nodiscard]] int group(int facet) const override { return surface_->group(facet); }
-  void add_partner(Piece& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
+  void add_partner(PointGroup& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
                    const std::vector<int>& points) const override {
     const auto dim = static_cast<std::size_t>(surface_->body().mesh().dimension()), moves = dim * dim;
     PointMotion& moving = piece.motion;

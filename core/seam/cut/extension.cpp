@@ -42,11 +42,11 @@ std::vector<std::vector<double>*> levels(Block& block) {
   return all;
 }
 
-struct Entry {
+struct MatrixEntry {
   int row, column;  ///< global nodes
   double value;
 };
-struct Known {
+struct KnownPart {
   int row;
   int column;  ///< of the right-hand sides
   double value;
@@ -56,15 +56,15 @@ struct Known {
 
 /// The equations of new nodes, and what known ones contribute to them.
 struct Extension::System {
-  std::vector<Entry> matrix;
-  std::vector<Known> right_side;
+  std::vector<MatrixEntry> matrix;
+  std::vector<KnownPart> right_side;
   std::map<int, int> index;  ///< global node -> row
 
   /// Everything that all ranks contribute, on every rank.
   void gather(const Communicator& communicator) {
     matrix = communicator.gather_all(matrix);
     right_side = communicator.gather_all(right_side);
-    for (const Entry& entry : matrix) index.emplace(entry.row, 0);
+    for (const MatrixEntry& entry : matrix) index.emplace(entry.row, 0);
     int count = 0;
     for (auto& [node, row] : index) row = count++;
   }
@@ -74,12 +74,12 @@ struct Extension::System {
     const int rows = static_cast<int>(index.size());
     if (rows == 0) return {};  // no face joins them to any
     std::vector<Eigen::Triplet<double>> triplets;
-    for (const Entry& entry : matrix)
+    for (const MatrixEntry& entry : matrix)
       triplets.emplace_back(index.at(entry.row), index.at(entry.column), entry.value);
     Eigen::SparseMatrix<double> equations(rows, rows);
     equations.setFromTriplets(triplets.begin(), triplets.end());
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(rows, columns);
-    for (const Known& entry : right_side) right(index.at(entry.row), entry.column) += entry.value;
+    for (const KnownPart& entry : right_side) right(index.at(entry.row), entry.column) += entry.value;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(equations);
     if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0) return {};
     return factor.solve(right);
@@ -133,8 +133,8 @@ void Extension::assemble(Block& block, Field& carrier, System& system) {
         std::none_of(nodes[1], nodes[1] + per_cell, is_new))
       continue;
     evaluator.compute(f, TimePoint{}, true);
-    for (const auto& row : evaluator.parts())
-      for (const auto& column : evaluator.parts())
+    for (const auto& row : evaluator.side_blocks())
+      for (const auto& column : evaluator.side_blocks())
         for (int a = 0; a < per_cell; ++a)
           for (int b = 0; b < per_cell && is_new(nodes[row.side][a]); ++b)
             add(block, nodes[row.side][a], nodes[column.side][b],
@@ -164,7 +164,7 @@ void Extension::add_means(int number, System& system) {
   const Mesh& mesh = field_->mesh();
   const int per_cell = block.space->nodes_per_cell();
   double weight = 0;
-  for (const Entry& entry : system.matrix) weight = std::max(weight, std::abs(entry.value));
+  for (const MatrixEntry& entry : system.matrix) weight = std::max(weight, std::abs(entry.value));
   weight = mesh.communicator().max(weight);
   // Small, so that it decides only what the jumps leave open.
   weight = weight > 0 ? 1e-3 * weight : 1;

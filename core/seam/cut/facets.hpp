@@ -7,7 +7,7 @@
 #include "seam/cut/joined.hpp"
 #include "seam/cut/lattice.hpp"
 #include "seam/cut/outline.hpp"
-#include "seam/cut/surface.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam::cutting {
 

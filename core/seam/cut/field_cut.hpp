@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "seam/cut/body.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/extension.hpp"
 #include "seam/cut/part_sets.hpp"
+#include "seam/surface/body.hpp"
 
 namespace seam {
 

@@ -14,7 +14,7 @@ namespace seam::cutting {
 
 /// A part of one facet in one cell: a segment in the facet's direction, or a polygon, counter-clockwise seen
 /// from outside the body.
-struct Piece {
+struct FacetPiece {
   int body, facet;
   int first, count;  ///< of CutCell::points
   Vector normal;     ///< unit, into the body
@@ -24,7 +24,7 @@ struct Piece {
 };
 
 /// A signed part of one side of a cell; all of them add up to the side's wet part.
-struct WetPart {
+struct SideSimplex {
   int face;
   Vector normal;                 ///< unit, of the side, out of the cell
   std::array<Vector, 3> corner;  ///< segment (two of them) or triangle
@@ -51,8 +51,8 @@ struct Trace {
 struct CutCell {
   int cell = -1;
   std::vector<Vector> points;
-  std::vector<Piece> pieces;
-  std::vector<WetPart> wet;
+  std::vector<FacetPiece> pieces;
+  std::vector<SideSimplex> wet;
   std::vector<Crossing> crossings;
   std::vector<Trace> traces;
   std::vector<int> facets;  ///< of Facets, that may meet the cell
@@ -70,19 +70,19 @@ struct CellPart {
 /// Vector area of a part: of a simplex in the direction of its orientation (in the plane to the right).
 Vector vector_area(int dimension, const Vector& a, const Vector& b, const Vector& c);
 /// Vector area of a piece, out of the wet part.
-Vector vector_area(int dimension, const CutCell& cell, const Piece& piece);
+Vector vector_area(int dimension, const CutCell& cell, const FacetPiece& piece);
 
 /// Appends a plane convex polygon as wet triangles of a face.
 /// @param normal unit, out of the cell; corners are counter-clockwise about it
 void append_wet(int face, const Vector& normal, const std::vector<Vector>& polygon,
-                std::vector<WetPart>& wet);
+                std::vector<SideSimplex>& wet);
 
 /// Calls visit(corners, sign) for planar simplices that bound the cell's wet part; times the sign they are
 /// oriented outward.
 template <class Visit>
 void visit_boundary(int dimension, const CutCell& cell, const Visit& visit) {
-  for (const WetPart& w : cell.wet) visit(w.corner, w.sign);
-  for (const Piece& p : cell.pieces) {
+  for (const SideSimplex& w : cell.wet) visit(w.corner, w.sign);
+  for (const FacetPiece& p : cell.pieces) {
     if (p.handed_over) continue;
     const Vector* x = &cell.points[p.first];
     if (dimension == 2)

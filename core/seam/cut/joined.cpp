@@ -9,14 +9,14 @@
 namespace seam::cutting {
 namespace {
 
-using Place = std::array<LatticePoint, 2>;  ///< the ends of an edge; in the plane twice the same point
+using Edge = std::array<LatticePoint, 2>;  ///< the ends of an edge; in the plane twice the same point
 using Signs = std::map<int, int>;  ///< by surface: how often its rim runs here, and in which direction
 
-void note(std::map<Place, Signs>& rims, int surface, const LatticePoint& a, const LatticePoint& b, int sign) {
+void note(std::map<Edge, Signs>& rims, int surface, const LatticePoint& a, const LatticePoint& b, int sign) {
   (a < b ? rims[{a, b}][surface] : rims[{b, a}][surface]) += a < b || a == b ? sign : -sign;
 }
 
-void note_rims(const Surface& surface, int number, const Lattice& lattice, std::map<Place, Signs>& rims) {
+void note_rims(const Surface& surface, int number, const Lattice& lattice, std::map<Edge, Signs>& rims) {
   const int dim = surface.dimension;
   for (int f = 0; f < surface.facet_count(); ++f) {
     std::array<LatticePoint, 3> p;
@@ -48,7 +48,7 @@ void append(const Surface& from, int number, Surface& to, std::vector<std::array
 
 Solids join(std::span<const Surface> surfaces, const Lattice& lattice) {
   const int count = static_cast<int>(surfaces.size());
-  std::map<Place, Signs> rims;
+  std::map<Edge, Signs> rims;
   for (int s = 0; s < count; ++s)
     if (!surfaces[s].closed) note_rims(surfaces[s], s, lattice, rims);
   DisjointSets sets(count);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "seam/cut/lattice.hpp"
-#include "seam/cut/surface.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam::cutting {
 

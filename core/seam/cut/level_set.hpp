@@ -3,8 +3,9 @@
 
 #include <functional>
 
-#include "seam/cut/surface.hpp"
 #include "seam/mesh/mesh.hpp"
+#include "seam/plugin/registry.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam {
 
@@ -15,5 +16,8 @@ namespace seam {
 /// @param value called with `dimension` coordinates, m
 /// @throws Error when the value is not finite, naming the place
 Surface level_set_surface(const Mesh& mesh, const std::function<double(const double*)>& value);
+
+/// Registers the body "level_set".
+void register_level_set(Registry& registry);
 
 }  // namespace seam

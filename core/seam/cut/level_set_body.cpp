@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "seam/base/diagnostics.hpp"
-#include "seam/cut/body.hpp"
 #include "seam/cut/level_set.hpp"
+#include "seam/surface/body.hpp"
 
 namespace seam {
 namespace {

@@ -73,7 +73,7 @@ void face_moments(int dimension, const CellMap& map, const CutCell& cell, int fa
   moment.assign(product_count(dimension - 1, degree), 0.0);
   const Quadrature& rule = simplex_rule(dimension - 1, std::min(30, (dimension - 1) * degree));
   std::array<Values, 3> value{};
-  for (const WetPart& w : cell.wet) {
+  for (const SideSimplex& w : cell.wet) {
     if (w.face != face) continue;
     const double weight = w.area * (dimension == 3 ? 2 : 1);
     for (int q = 0; q < rule.count(); ++q) {

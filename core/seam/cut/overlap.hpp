@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "seam/cut/surface.hpp"
+#include "seam/surface/surface.hpp"
 
 namespace seam {
 

@@ -164,7 +164,7 @@ std::shared_ptr<PartLayout> PartSets::find(const CutMesh& cut, const std::vector
     layout->first.push_back(static_cast<int>(layout->parts.size()));
     if (!active[c] || !is_listed(c)) continue;
     for (int p = 0; p < cut.parts(c); ++p) {
-      PartLayout::Part& part = layout->parts.emplace_back();
+      PartLayout::Sets& part = layout->parts.emplace_back();
       part.centre = cut.part_centre(c, p);
       for (int o = 0; o < 2; ++o) {
         if (spaces[o] == nullptr) continue;

@@ -25,7 +25,7 @@ bool contains(const Outline& outline, const Side& side, const Vector& normal, co
 
 }  // namespace
 
-PieceMotion::PieceMotion(const Outline& outline, const CutCell& cell, const Piece& piece,
+PieceMotion::PieceMotion(const Outline& outline, const CutCell& cell, const FacetPiece& piece,
                          const Surface& surface)
     : dim_(surface.dimension), outline_(&outline), cell_(cell.cell), normal_(piece.normal) {
   find_frame(surface, piece.facet);

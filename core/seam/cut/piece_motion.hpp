@@ -14,7 +14,7 @@ namespace seam::cutting {
 /// is fixed, slide along both.
 class PieceMotion {
  public:
-  PieceMotion(const Outline& outline, const CutCell& cell, const Piece& piece, const Surface& surface);
+  PieceMotion(const Outline& outline, const CutCell& cell, const FacetPiece& piece, const Surface& surface);
 
   /// Appends the derivatives of a point of the simplex of corners 0, a, b.
   /// @param share of the three corners in the point

@@ -103,7 +103,7 @@ void CutMesh::face_rule(int cell, int face, int degree, CutRule& rule, int part)
   rule.weight.clear();
   if (state_[cell] == CellState::body) return;
   const CutCell& cut = geometry_->at(cell, part);
-  const auto on_face = [&](const WetPart& w) { return w.face == face; };
+  const auto on_face = [&](const SideSimplex& w) { return w.face == face; };
   if ((cut.dry_faces >> face & 1U) != 0 || std::none_of(cut.wet.begin(), cut.wet.end(), on_face)) return;
   const CellTopology& shape = topology(mesh_->type());
   const int dim = mesh_->dimension();
@@ -131,10 +131,10 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
   const Quadrature& base = quadrature(dim == 2 ? CellType::segment : CellType::triangle, degree);
   clear(rule);
   if (motion) *motion = {};
-  const auto place = [&](const Piece& piece, const Vector& position) {
+  const auto place = [&](const FacetPiece& piece, const Vector& position) {
     return on_facet(geometry_->bodies[piece.body], piece.facet, position);
   };
-  const auto add = [&](const Piece& piece, const Vector& position, double weight) {
+  const auto add = [&](const FacetPiece& piece, const Vector& position, double weight) {
     Vector reference = map.to_reference(position), x = position;
     if (piece.handed_over) {
       reference = into_cell(mesh_->type(), reference);
@@ -149,7 +149,7 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
     rule.facet.push_back(piece.facet);
     rule.facet_reference.insert(rule.facet_reference.end(), s.begin(), s.begin() + dim - 1);
   };
-  for (const Piece& piece : cut.pieces) {
+  for (const FacetPiece& piece : cut.pieces) {
     const Vector* x = &cut.points[piece.first];
     std::optional<PieceMotion> moving;
     if (motion) moving.emplace(geometry_->outline, cut, piece, geometry_->bodies[piece.body]);

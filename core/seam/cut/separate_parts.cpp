@@ -18,7 +18,7 @@ constexpr double smallest_opening = 1e-12;
 double wet_area(const CutCell& cell, int face) {
   if ((cell.dry_faces >> face & 1U) != 0) return 0;
   double area = 0;
-  for (const WetPart& w : cell.wet)
+  for (const SideSimplex& w : cell.wet)
     if (w.face == face) area += w.area;
   return area;
 }

@@ -19,8 +19,8 @@ int face_towards(const Outline& outline, int cell, int other) {
 /// For a face that no piece of the sliver is opposite to: its largest wet part, with the area of all,
 /// closes the receiver.
 void lay_face(int dimension, const CutCell& sliver, int face, const Vector& outward, CutCell& receiver) {
-  const WetPart* largest = nullptr;
-  for (const WetPart& w : sliver.wet)
+  const SideSimplex* largest = nullptr;
+  for (const SideSimplex& w : sliver.wet)
     if (w.face == face && (largest == nullptr || w.area > largest->area)) largest = &w;
   if (largest == nullptr || largest->area <= 0) return;
   const double area = length(outward);
@@ -38,16 +38,16 @@ void hand_over(int dimension, const CutCell& sliver, int face, const Vector& out
   const double area = length(outward);
   const Vector normal = 1 / area * outward;
   Vector anchor{};
-  for (const WetPart& w : sliver.wet)
+  for (const SideSimplex& w : sliver.wet)
     if (w.face == face) anchor = w.corner[0];
-  std::vector<std::pair<Piece, double>> laid;  // and their shares
+  std::vector<std::pair<FacetPiece, double>> laid;  // and their shares
   double sum = 0;
-  for (const Piece& p : sliver.pieces) {
+  for (const FacetPiece& p : sliver.pieces) {
     const Vector a = vector_area(dimension, sliver, p);
     // Pieces at right angles to the face have no share but rounding.
     const double opposite = dot(a, normal);
     if (opposite <= 1e-12 * length(a)) continue;
-    Piece piece = p;
+    FacetPiece piece = p;
     piece.handed_over = true;
     piece.normal = normal;
     piece.scale = 1;
@@ -97,7 +97,7 @@ class Settlement {
     std::sort(cells_.begin(), cells_.end(),
               [](const CutCell& a, const CutCell& b) { return a.cell < b.cell; });
     for (CutCell& c : cells_)
-      if (std::any_of(c.pieces.begin(), c.pieces.end(), [](const Piece& p) { return p.handed_over; }))
+      if (std::any_of(c.pieces.begin(), c.pieces.end(), [](const FacetPiece& p) { return p.handed_over; }))
         measure(outline_, c);
   }
 
@@ -130,7 +130,7 @@ class Settlement {
 
   static Vector wet_face_area(const CutCell& cell, int face) {
     Vector sum{};
-    for (const WetPart& w : cell.wet)
+    for (const SideSimplex& w : cell.wet)
       if (w.face == face) sum = sum + w.area * w.normal;
     return sum;
   }
@@ -147,7 +147,7 @@ Vector vector_area(int dimension, const Vector& a, const Vector& b, const Vector
   return dimension == 2 ? Vector{b[1] - a[1], a[0] - b[0], 0} : 0.5 * cross(b - a, c - a);
 }
 
-Vector vector_area(int dimension, const CutCell& cell, const Piece& piece) {
+Vector vector_area(int dimension, const CutCell& cell, const FacetPiece& piece) {
   const Vector* x = &cell.points[piece.first];
   Vector sum{};
   for (int k = 1; k + (dimension == 3 ? 1 : 0) < piece.count; ++k)
@@ -156,7 +156,7 @@ Vector vector_area(int dimension, const CutCell& cell, const Piece& piece) {
 }
 
 void append_wet(int face, const Vector& normal, const std::vector<Vector>& polygon,
-                std::vector<WetPart>& wet) {
+                std::vector<SideSimplex>& wet) {
   for (std::size_t k = 1; k + 1 < polygon.size(); ++k) {
     const double area = dot(vector_area(3, polygon[0], polygon[k], polygon[k + 1]), normal);
     if (area != 0) wet.push_back({face, normal, {polygon[0], polygon[k], polygon[k + 1]}, 1.0, area});
@@ -172,7 +172,7 @@ void measure(const Outline& outline, CutCell& cell) {
   visit_boundary(dim, cell, [&](const std::array<Vector, 3>& x, double sign) {
     cell.wet_volume += sign / dim * dot(x[0] - centre, vector_area(dim, x[0], x[1], x[2]));
   });
-  for (const Piece& p : cell.pieces) cell.interface_area += length(vector_area(dim, cell, p));
+  for (const FacetPiece& p : cell.pieces) cell.interface_area += length(vector_area(dim, cell, p));
 }
 
 void settle_slivers(const Outline& outline, std::vector<CutCell>& cells, std::vector<CellState>& state) {
@@ -190,7 +190,7 @@ CutCell whole_cell(const Outline& outline, int cell) {
   whole.united = true;
   for (int s = outline.first_side[cell]; s < outline.first_side[cell + 1]; ++s) {
     const Side& side = outline.sides[s];
-    WetPart part{side.face, side_normal(outline, side), {}, 1.0, 0.0};
+    SideSimplex part{side.face, side_normal(outline, side), {}, 1.0, 0.0};
     for (int k = 0; k < 3; ++k)
       part.corner[k] = outline.position[side.vertex[std::min(k, outline.dimension - 1)]];
     part.area = length(vector_area(outline.dimension, part.corner[0], part.corner[1], part.corner[2]));

@@ -62,8 +62,8 @@ class CellUnion {
 
  private:
   /// Of each body: whether a part of the cell lies in it, where a division has told.
-  enum class Place : char { unknown, outside, inside };
-  using Places = std::vector<Place>;
+  enum class Lies : char { unknown, outside, inside };
+  using LiesInBodies = std::vector<Lies>;
 
   static Convex cone(const Convex::Face& base, const Vector& apex) {
     Convex result{{base}};
@@ -77,27 +77,29 @@ class CellUnion {
   [[nodiscard]] Vector inward(const Vector& x) const { return x - 5 * 2e-14 * (x - centre_); }
   [[nodiscard]] bool is_wide(const Polygon& polygon) const;
   void add_part(const Convex& part);
-  std::unique_ptr<Node> divide(const Convex& part, std::vector<Fragment> fragments, const Places& places);
+  std::unique_ptr<Node> divide(const Convex& part, std::vector<Fragment> fragments,
+                               const LiesInBodies& places);
   /// Of the cell's size: in the middle of a thicker part the lattice tells what is inside; a thinner one lies
   /// where its divisions say.
   static constexpr double thick = 1e-11;
   [[nodiscard]] double thickness(const Convex& part) const;
-  [[nodiscard]] bool is_wet_part(const Convex& part, const Places& places) const;
+  [[nodiscard]] bool is_wet_part(const Convex& part, const LiesInBodies& places) const;
   std::unique_ptr<Node> divide_at(const Node& node, const Convex& part, std::vector<Fragment> fragments,
-                                  const Places& before, bool in_front, const std::vector<Fragment>& walls);
+                                  const LiesInBodies& before, bool in_front,
+                                  const std::vector<Fragment>& walls);
   std::unique_ptr<Node> divide_at_walls(const Node& node, const Convex& part, std::vector<Fragment> fragments,
-                                        const Places& covered, const Places& uncovered,
+                                        const LiesInBodies& covered, const LiesInBodies& uncovered,
                                         const std::vector<Fragment>& walls, std::size_t wall);
   std::unique_ptr<Node> divide_layer(const Vector& normal, const Convex& part,
                                      std::vector<Fragment> fragments, const std::vector<Polygon>& covers,
-                                     std::size_t cover, std::size_t edge, const Places& covered,
-                                     const Places& uncovered);
-  [[nodiscard]] Places places_after(const Node& node, const std::vector<Fragment>& fragments, Places places,
-                                    bool in_front) const;
+                                     std::size_t cover, std::size_t edge, const LiesInBodies& covered,
+                                     const LiesInBodies& uncovered);
+  [[nodiscard]] LiesInBodies places_after(const Node& node, const std::vector<Fragment>& fragments,
+                                          LiesInBodies places, bool in_front) const;
   void collect(const Node& node, std::vector<const Node*>& ancestors);
   void add_leaf(const Node& leaf, const std::vector<const Node*>& ancestors);
   void add_interface(const Polygon& polygon, const Node& node);
-  void add_piece(const Polygon& polygon, const Piece& source, const Vector& into, double scale);
+  void add_piece(const Polygon& polygon, const FacetPiece& source, const Vector& into, double scale);
   static void against_body(const Node& node, const Polygon& polygon, std::vector<Polygon>& parts);
   [[nodiscard]] Plane plane_of(const Fragment& fragment) const;
 
@@ -109,8 +111,8 @@ class CellUnion {
   int reference_ = 0;                  ///< a vertex of the cell
   std::vector<bool> overlaps_itself_;  ///< [body]
   std::vector<const Node*> nodes_;     ///< those that divide, in order
-  std::vector<WetPart> wet_;
-  std::vector<Piece> pieces_;
+  std::vector<SideSimplex> wet_;
+  std::vector<FacetPiece> pieces_;
   std::vector<Vector> points_;
 };
 
@@ -135,7 +137,7 @@ void CellUnion::add_part(const Convex& part) {
   nodes_.clear();
   std::vector<Fragment> fragments;
   for (std::size_t k = 0; k < cell_.pieces.size(); ++k) {
-    const Piece& p = cell_.pieces[k];
+    const FacetPiece& p = cell_.pieces[k];
     Fragment fragment{{}, static_cast<int>(k)};
     for (int i = 0; i < p.count; ++i) fragment.corner.push_back(inward(cell_.points[p.first + i]));
     Polygon front, back;
@@ -147,13 +149,13 @@ void CellUnion::add_part(const Convex& part) {
     if (is_wide(fragment.corner)) fragments.push_back(std::move(fragment));
   }
   const std::unique_ptr<Node> root =
-      divide(part, std::move(fragments), Places(windings_.size(), Place::unknown));
+      divide(part, std::move(fragments), LiesInBodies(windings_.size(), Lies::unknown));
   std::vector<const Node*> ancestors;
   collect(*root, ancestors);
 }
 
 std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment> fragments,
-                                        const Places& places) {
+                                        const LiesInBodies& places) {
   auto node = std::make_unique<Node>();
   const auto area = [](const Fragment& f) {
     const Vector a = vector_area(f.corner);
@@ -213,23 +215,23 @@ std::unique_ptr<Node> CellUnion::divide(const Convex& part, std::vector<Fragment
 }
 
 std::unique_ptr<Node> CellUnion::divide_at(const Node& node, const Convex& part,
-                                           std::vector<Fragment> fragments, const Places& before,
+                                           std::vector<Fragment> fragments, const LiesInBodies& before,
                                            bool in_front, const std::vector<Fragment>& walls) {
-  const Places places = places_after(node, fragments, before, in_front);
+  const LiesInBodies places = places_after(node, fragments, before, in_front);
   if (volume(part) > smallest_part * cell_volume_) return divide(part, std::move(fragments), places);
   // A facet that ends on this layer at the cell's border covers only a part of it, and the facets round the
   // corner are too narrow here to tell which.
-  Places uncovered = places;
-  for (const Fragment& f : node.in_plane) uncovered[cell_.pieces[f.piece].body] = Place::unknown;
+  LiesInBodies uncovered = places;
+  for (const Fragment& f : node.in_plane) uncovered[cell_.pieces[f.piece].body] = Lies::unknown;
   return divide_at_walls(node, part, std::move(fragments), places, uncovered, walls, 0);
 }
 
 /// Divides a thin layer along the fragments that reach it from beyond the plane, of other bodies, too: they
 /// go on through it and are too narrow there to be fragments themselves.
 std::unique_ptr<Node> CellUnion::divide_at_walls(const Node& node, const Convex& part,
-                                                 std::vector<Fragment> fragments, const Places& covered,
-                                                 const Places& uncovered, const std::vector<Fragment>& walls,
-                                                 std::size_t wall) {
+                                                 std::vector<Fragment> fragments, const LiesInBodies& covered,
+                                                 const LiesInBodies& uncovered,
+                                                 const std::vector<Fragment>& walls, std::size_t wall) {
   if (wall == walls.size()) {
     std::vector<Polygon> covers;
     for (const Fragment& f : node.in_plane) covers.push_back(f.corner);
@@ -270,8 +272,8 @@ std::unique_ptr<Node> CellUnion::divide_at_walls(const Node& node, const Convex&
 std::unique_ptr<Node> CellUnion::divide_layer(const Vector& normal, const Convex& part,
                                               std::vector<Fragment> fragments,
                                               const std::vector<Polygon>& covers, std::size_t cover,
-                                              std::size_t edge, const Places& covered,
-                                              const Places& uncovered) {
+                                              std::size_t edge, const LiesInBodies& covered,
+                                              const LiesInBodies& uncovered) {
   if (cover == covers.size()) return divide(part, std::move(fragments), uncovered);
   const Polygon& polygon = covers[cover];
   if (edge == polygon.size()) return divide(part, std::move(fragments), covered);
@@ -309,17 +311,17 @@ std::unique_ptr<Node> CellUnion::divide_layer(const Vector& normal, const Convex
 
 /// Next to a division along a body's fragment, and with no other fragment of that body, a part lies wholly on
 /// that fragment's side. A body so thin that both of its sides lie in the division is on neither.
-CellUnion::Places CellUnion::places_after(const Node& node, const std::vector<Fragment>& fragments,
-                                          Places places, bool in_front) const {
+CellUnion::LiesInBodies CellUnion::places_after(const Node& node, const std::vector<Fragment>& fragments,
+                                                LiesInBodies places, bool in_front) const {
   const auto place = [&](const Fragment& f) {
     const bool before_it = (dot(cell_.pieces[f.piece].normal, node.plane.normal) < 0) == in_front;
-    return before_it ? Place::outside : Place::inside;
+    return before_it ? Lies::outside : Lies::inside;
   };
   const auto body = [&](const Fragment& f) { return cell_.pieces[f.piece].body; };
   for (const Fragment& f : node.in_plane) places[body(f)] = place(f);
   for (const Fragment& f : node.in_plane)
-    if (places[body(f)] != place(f)) places[body(f)] = Place::unknown;
-  for (const Fragment& f : fragments) places[cell_.pieces[f.piece].body] = Place::unknown;
+    if (places[body(f)] != place(f)) places[body(f)] = Lies::unknown;
+  for (const Fragment& f : fragments) places[cell_.pieces[f.piece].body] = Lies::unknown;
   return places;
 }
 
@@ -333,12 +335,12 @@ double CellUnion::thickness(const Convex& part) const {
   return area > 0 ? 2 * volume(part) / area / std::cbrt(cell_volume_) : 0;
 }
 
-bool CellUnion::is_wet_part(const Convex& part, const Places& places) const {
+bool CellUnion::is_wet_part(const Convex& part, const LiesInBodies& places) const {
   const LatticePoint middle = input_.facets.lattice.round(centre(part));
   const bool is_thin = thickness(part) < thick;
   for (int body = 0; body < static_cast<int>(windings_.size()); ++body) {
-    if (is_thin && places[body] != Place::unknown && !overlaps_itself_[body]) {
-      if (places[body] == Place::inside) return false;
+    if (is_thin && places[body] != Lies::unknown && !overlaps_itself_[body]) {
+      if (places[body] == Lies::inside) return false;
       continue;
     }
     int winding = windings_[body][reference_];
@@ -432,8 +434,9 @@ void CellUnion::add_interface(const Polygon& polygon, const Node& node) {
 }
 
 /// @param into the body: narrow facets in the plane of a wide one may point elsewhere
-void CellUnion::add_piece(const Polygon& polygon, const Piece& source, const Vector& into, double scale) {
-  Piece piece = source;
+void CellUnion::add_piece(const Polygon& polygon, const FacetPiece& source, const Vector& into,
+                          double scale) {
+  FacetPiece piece = source;
   piece.normal = into;
   piece.first = static_cast<int>(points_.size());
   piece.count = static_cast<int>(polygon.size());

@@ -52,7 +52,7 @@ double solid_angle(const std::array<Vector, 3>& corner, const Vector& x) {
 /// Divides the cell along the planes of the interface until each part lies wholly in the wet part or not.
 void split_along_interface(const CutCell& cell, std::vector<Convex>& parts) {
   for (std::size_t k = 0; k < cell.pieces.size(); ++k) {
-    const Piece& p = cell.pieces[k];
+    const FacetPiece& p = cell.pieces[k];
     if (p.handed_over) continue;
     const Polygon polygon(cell.points.begin() + p.first, cell.points.begin() + p.first + p.count);
     const Plane plane{p.normal, dot(p.normal, polygon[0])};

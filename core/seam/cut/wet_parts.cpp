@@ -14,7 +14,7 @@ namespace {
 
 using namespace cutting;
 
-struct Share {
+struct LabelVolume {
   int label;
   double volume, largest;
 };
@@ -26,7 +26,7 @@ bool CutMesh::is_wet(int cell, int face) const {
   const CutCell& cut = geometry_->at(cell);
   if ((cut.dry_faces >> face & 1U) != 0) return false;
   double area = 0;
-  for (const WetPart& w : cut.wet)
+  for (const SideSimplex& w : cut.wet)
     if (w.face == face) area += w.area;
   return area > 0;
 }
@@ -58,19 +58,20 @@ WetParts CutMesh::find_parts() const {
                                if (state_[c] != CellState::body) changed = lower(c, value) || changed;
                              });
   }
-  std::map<int, Share> shares;
+  std::map<int, LabelVolume> shares;
   for (int c = 0; c < mesh_->owned_cells(); ++c) {
     if (state_[c] == CellState::body) continue;
     const double whole = geometry_->outline.volume(c);
-    Share& share = shares.try_emplace(label[sets.root(c)], Share{label[sets.root(c)], 0, 0}).first->second;
+    LabelVolume& share =
+        shares.try_emplace(label[sets.root(c)], LabelVolume{label[sets.root(c)], 0, 0}).first->second;
     share.volume += state_[c] == CellState::cut ? wet_volume(c) : whole;
     share.largest = std::max(share.largest, whole);
   }
-  std::vector<Share> mine;
+  std::vector<LabelVolume> mine;
   for (const auto& [key, share] : shares) mine.push_back(share);
   shares.clear();
-  for (const Share& s : mesh_->communicator().gather_all(mine)) {
-    Share& share = shares.try_emplace(s.label, Share{s.label, 0, 0}).first->second;
+  for (const LabelVolume& s : mesh_->communicator().gather_all(mine)) {
+    LabelVolume& share = shares.try_emplace(s.label, LabelVolume{s.label, 0, 0}).first->second;
     share.volume += s.volume;
     share.largest = std::max(share.largest, s.largest);
   }

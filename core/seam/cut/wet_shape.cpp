@@ -81,7 +81,7 @@ void CutMesh::wet_shape(int cell, WetShape& shape, int part) const {
   shape.points.clear();
   shape.first.assign(1, 0);
   std::vector<Segment> outline;
-  for (const Piece& p : cut.pieces) {
+  for (const FacetPiece& p : cut.pieces) {
     if (p.handed_over) continue;
     Loop loop(cut.points.begin() + p.first, cut.points.begin() + p.first + p.count);
     std::reverse(loop.begin(), loop.end());
@@ -94,7 +94,7 @@ void CutMesh::wet_shape(int cell, WetShape& shape, int part) const {
     add_sides(geometry_->outline, geometry_->coverage, cut, shape);
     return;
   }
-  for (const WetPart& w : cut.wet)
+  for (const SideSimplex& w : cut.wet)
     if (dim == 2)
       outline.push_back(w.sign > 0 ? Segment{w.corner[0], w.corner[1]} : Segment{w.corner[1], w.corner[0]});
     else

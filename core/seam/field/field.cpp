@@ -57,7 +57,7 @@ int Field::order() const {
   return order;
 }
 
-Field::Place Field::place(const std::string& unknown) const {
+Field::ComponentRange Field::place(const std::string& unknown) const {
   std::vector<std::string> names;
   for (std::size_t u = 0; u < unknowns_.size(); ++u) {
     if (unknowns_[u].name == unknown) return places_[u];

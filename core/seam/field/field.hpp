@@ -78,7 +78,7 @@ class Field {
   /// Collective. @param sets of unknowns that a node can have at most, see PartLayout
   Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets = 1);
 
-  struct Place {
+  struct ComponentRange {
     int block;   ///< index into blocks()
     int offset;  ///< first component within the block
     int components;
@@ -89,7 +89,7 @@ class Field {
   /// Highest polynomial order of the unknowns.
   [[nodiscard]] int order() const;
   /// @throws Error listing the field's unknowns
-  [[nodiscard]] Place place(const std::string& unknown) const;
+  [[nodiscard]] ComponentRange place(const std::string& unknown) const;
   /// A constant that the field's physics makes known, such as "viscosity".
   /// @throws Error listing those it has
   [[nodiscard]] double constant(const std::string& name) const;
@@ -127,7 +127,7 @@ class Field {
   [[nodiscard]] int parts(int cell) const { return layout_ ? layout_->count(cell) : 1; }
   /// Local nodes of a part of a cell. @param space of one of the blocks
   [[nodiscard]] const int* cell_nodes(const Space& space, int cell, int part = 0) const {
-    const PartLayout::Part* listed = layout_ ? layout_->part(cell, part) : nullptr;
+    const PartLayout::Sets* listed = layout_ ? layout_->part(cell, part) : nullptr;
     return listed ? listed->node[space.order() - 1].data() : space.cell_nodes(cell);
   }
   [[nodiscard]] const int* cell_nodes(int block, int cell, int part = 0) const {
@@ -161,7 +161,7 @@ class Field {
   std::string name_;
   const Mesh* mesh_;
   std::vector<Unknown> unknowns_;
-  std::vector<Place> places_;
+  std::vector<ComponentRange> places_;
   std::map<std::string, double> constants_;
   std::map<std::pair<std::string, int>, std::shared_ptr<const Law>> laws_;  ///< by name and region
   int regions_ = 1;

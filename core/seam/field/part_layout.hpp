@@ -12,7 +12,7 @@ namespace seam {
 /// is that of the wet part in which the node itself lies, or the only one.
 struct PartLayout {
   /// A part of a cell that has several, or whose nodes are not all of set 0.
-  struct Part {
+  struct Sets {
     std::array<double, 3> centre;          ///< m
     std::array<std::vector<int>, 2> set;   ///< [order - 1][node of the cell]; empty for orders not in use
     std::array<std::vector<int>, 2> node;  ///< the same as local nodes of the Space
@@ -20,14 +20,14 @@ struct PartLayout {
   std::vector<char> active;                      ///< [local cell]
   std::vector<std::vector<double>> body_points;  ///< [body]: of the surfaces that part the cells, m
   std::vector<int> first;  ///< [local cell + 1]: into parts; equal ones where the cell is one part of set 0
-  std::vector<Part> parts;
+  std::vector<Sets> parts;
 
   /// Of a local cell: 1 where nothing is listed.
   [[nodiscard]] int count(int cell) const {
     return first[cell] == first[cell + 1] ? 1 : first[cell + 1] - first[cell];
   }
   /// Null where all nodes are of set 0.
-  [[nodiscard]] const Part* part(int cell, int number) const {
+  [[nodiscard]] const Sets* part(int cell, int number) const {
     return first[cell] == first[cell + 1] ? nullptr : &parts[first[cell] + number];
   }
   /// Whether all parts use the same sets.

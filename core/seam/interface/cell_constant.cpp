@@ -11,7 +11,7 @@ namespace seam {
 namespace {
 
 /// Displacements of the cell's nodes, [node][dimension], in the state that a policy asks for.
-std::vector<double> displacements(const Block& block, const Field::Place& place,
+std::vector<double> displacements(const Block& block, const Field::ComponentRange& place,
                                   const std::vector<int>& nodes, CellConstant::Refresh policy) {
   std::vector<double> u(nodes.size() * place.components, 0.0);
   if (policy == CellConstant::Refresh::once) return u;
@@ -68,12 +68,12 @@ int CellConstants::add(std::shared_ptr<const CellConstant> constant, int region)
 }
 
 void CellConstants::forget(CellConstant::Refresh policy) {
-  for (Entry& entry : constants_)
+  for (Request& entry : constants_)
     if (entry.constant->refresh() == policy) std::fill(entry.known.begin(), entry.known.end(), 0);
 }
 
 double CellConstants::value(int number, int index, const RemoteCell& cell, const std::vector<int>& faces) {
-  Entry& entry = constants_[number];
+  Request& entry = constants_[number];
   if (body_->region(cell.global_cell) != entry.region) return 0;
   const auto i = static_cast<std::size_t>(index);
   if (i >= entry.known.size()) {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "seam/assembly/remote_cells.hpp"
 #include "seam/field/field.hpp"
-#include "seam/interface/remote_cells.hpp"
 
 namespace seam {
 
@@ -46,7 +46,7 @@ class CellConstant {
 class CellConstants {
  public:
   /// @param displacement of the body
-  CellConstants(const Field& body, Field::Place displacement) : body_(&body), place_(displacement) {}
+  CellConstants(const Field& body, Field::ComponentRange displacement) : body_(&body), place_(displacement) {}
   /// @param region the one in whose cells it is read; elsewhere it is 0
   /// @return its number
   int add(std::shared_ptr<const CellConstant> constant, int region);
@@ -61,15 +61,15 @@ class CellConstants {
  private:
   [[nodiscard]] CellTrace trace(const RemoteCell& cell, const std::vector<int>& faces,
                                 CellConstant::Refresh policy) const;
-  struct Entry {
+  struct Request {
     std::shared_ptr<const CellConstant> constant;
     int region;
     std::vector<double> value;  ///< [cell]
     std::vector<char> known;
   };
   const Field* body_;
-  Field::Place place_;
-  std::vector<Entry> constants_;
+  Field::ComponentRange place_;
+  std::vector<Request> constants_;
 };
 
 }  // namespace seam

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "seam/assembly/evaluator.hpp"
-#include "seam/cut/body.hpp"
 #include "seam/interface/cell_constant.hpp"
 #include "seam/scene/parameters.hpp"
+#include "seam/surface/body.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {

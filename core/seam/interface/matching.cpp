@@ -9,10 +9,8 @@
 #include <map>
 
 #include "seam/assembly/domains.hpp"
+#include "seam/assembly/remote_cells.hpp"
 #include "seam/assembly/together.hpp"
-#include "seam/cut/cut_interface.hpp"
-#include "seam/cut/embedded_interface.hpp"
-#include "seam/interface/remote_cells.hpp"
 
 namespace seam {
 namespace {
@@ -184,16 +182,10 @@ std::vector<InterfacePart> MatchingInterface::build(InterfaceSetup& setup) const
                                                 setup.degree + setup.extra_degree)}};
 }
 
-void register_interfaces(Registry& registry) {
+void register_matching(Registry& registry) {
   registry.add<Interface>(
       "interface", "matching", MatchingInterface::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<MatchingInterface>(p); });
-  registry.add<Interface>(
-      "interface", "cut", CutInterface::schema(),
-      [](const Parameters& p, const Registry& types) { return std::make_unique<CutInterface>(p, types); });
-  registry.add<Interface>(
-      "interface", "embedded", EmbeddedInterface::schema(),
-      [](const Parameters& p, const Registry&) { return std::make_unique<EmbeddedInterface>(p); });
 }
 
 }  // namespace seam

@@ -21,7 +21,7 @@ class MatchingInterface final : public Interface {
   Location where_;
 };
 
-/// Registers "matching", "cut" and "embedded".
-void register_interfaces(Registry& registry);
+/// Registers the interface "matching".
+void register_matching(Registry& registry);
 
 }  // namespace seam

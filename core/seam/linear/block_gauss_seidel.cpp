@@ -25,15 +25,15 @@ BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, con
     } else {
       inverse = make_incomplete_lu(selection.own_submatrix(a), selection.map(), use.fill);
     }
-    parts_.push_back({selection, inverse});
+    inverses_.push_back({selection, inverse});
   }
 }
 
 void BlockGaussSeidel::apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
                              double beta) const {
   TpetraVector solution(getDomainMap(), x.getNumVectors()), residual(x, Teuchos::Copy);
-  for (std::size_t p = 0; p < parts_.size(); ++p) {
-    const Part& part = parts_[p];
+  for (std::size_t p = 0; p < inverses_.size(); ++p) {
+    const BlockInverse& part = inverses_[p];
     if (p > 0) {
       Tpetra::deep_copy(residual, x);
       system_->apply(solution, residual, Teuchos::NO_TRANS, -1.0, 1.0);

@@ -41,13 +41,13 @@ class BlockGaussSeidel final : public TpetraOperator {
              double beta) const override;
 
  private:
-  struct Part {
+  struct BlockInverse {
     Selection selection;
     Teuchos::RCP<TpetraOperator> inverse;
   };
   Teuchos::RCP<TpetraMatrix> system_;
   Teuchos::RCP<const TpetraMap> map_;
-  std::vector<Part> parts_;
+  std::vector<BlockInverse> inverses_;
 };
 
 }  // namespace seam

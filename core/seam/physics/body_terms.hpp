@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "seam/physics/conditions.hpp"
 #include "seam/scene/expression.hpp"
 #include "seam/term/kernel_term.hpp"
 
@@ -45,5 +46,19 @@ struct NodalBodyLoad {
     r.value(Vector<0>{}) -= density * s.value(Vector<1>{});
   }
 };
+
+/// Adds the load of a body force per mass. @param densities of the body's regions, kg/m^3 of reference volume
+inline void add_body_loads(FieldSetup& setup, const BodyForce& force, const std::string& displacement,
+                           const std::vector<double>& densities) {
+  if (!force.is_given()) return;
+  force.give(setup);
+  for (std::size_t k = 0; k < densities.size(); ++k)
+    setup.within(static_cast<int>(k), [&] {
+      if (force.is_nodal())
+        setup.add_cell_term(make_term(NodalBodyLoad{densities[k]}, 1), {displacement, force.key()});
+      else
+        setup.add_cell_term(make_term(BodyLoad{force.per_mass(), densities[k]}, 1), {displacement});
+    });
+}
 
 }  // namespace seam

@@ -14,17 +14,17 @@ namespace {
 
 class Doubts {
  public:
-  explicit Doubts(const BuiltScene& built) : built_(built) {}
+  explicit Doubts(const SceneAtStart& scene) : at_(scene) {}
 
   std::vector<Diagnostic> find() {
     look_for_nothing();
     look_for_overlap();
-    for (const auto& [name, interface] : built_.interfaces) add_body(name, *interface);
+    for (const auto& [name, interface] : at_.built.interfaces) add_body(name, *interface);
     look_at_pairs();
     look_at_times();
-    for (const auto& [name, probe] : built_.scene.root.object("output").map("probes"))
+    for (const auto& [name, probe] : at_.scene.root.object("output").map("probes"))
       look_at_probe(name, probe);
-    for (const Parameters& coupling : built_.scene.root.list("coupling")) look_at_wall(coupling);
+    for (const Parameters& coupling : at_.scene.root.list("coupling")) look_at_wall(coupling);
     return std::move(found_);
   }
 
@@ -38,58 +38,54 @@ class Doubts {
   void warn(Location where, std::string message) {
     found_.push_back({Diagnostic::Severity::warning, std::move(where), std::move(message)});
   }
-  [[nodiscard]] Location place_of(const std::string& block, const std::string& name) const {
-    for (const auto& [key, parameters] : built_.scene.root.map(block))
-      if (key == name) return parameters.where();
-    return {};
-  }
 
   void look_for_nothing() {
-    const Communicator& communicator = built_.problem.communicator();
-    for (const auto& [name, parts] : built_.problem.interfaces()) {
+    const Communicator& communicator = at_.built.problem->communicator();
+    for (const auto& [name, parts] : at_.built.problem->interfaces()) {
       const std::string& interface_name = name;
       // Contact finds what is opposite when it comes near.
       const auto of_first = [&, &first = parts.front()](const FieldEntry& entry) {
         return entry.field.get() == first.domain->fields().front() && entry.cut;
       };
-      if (std::ranges::none_of(built_.problem.fields(), of_first)) continue;
+      if (std::ranges::none_of(at_.built.problem->fields(), of_first)) continue;
       // Without a coupling its elements are not looked for, which is told elsewhere.
-      if (std::ranges::none_of(built_.scene.root.list("coupling"), [&](const Parameters& coupling) {
+      if (std::ranges::none_of(at_.scene.root.list("coupling"), [&](const Parameters& coupling) {
             return coupling.has("on") && coupling.text("on") == interface_name;
           }))
         continue;
       long long facets = 0;
       for (const InterfacePart& part : parts) facets += part.domain->size();
       if (communicator.sum(facets) == 0)
-        warn(place_of("interfaces", name),
+        warn(at_.scene.where("interfaces", name),
              fmt::format(
                  "nothing of the interface '{}' lies in its field: what it describes is outside of the "
                  "mesh, or covers all of it",
                  name));
     }
-    for (const FieldEntry& entry : built_.problem.fields()) {
+    for (const FieldEntry& entry : at_.built.problem->fields()) {
       const auto& active = entry.field->active_cells();
       const bool any = std::any_of(active.begin(), active.begin() + entry.mesh->owned_cells(),
                                    [](char is_active) { return is_active != 0; });
       if (!communicator.any(any))
-        warn(place_of("fields", entry.name),
+        warn(at_.scene.where("fields", entry.name),
              fmt::format("bodies cover all of the field '{}': it has no unknowns", entry.name));
     }
   }
 
   /// Contact that begins with bodies in each other.
   void look_for_overlap() {
-    for (const InterfaceMeasure& measure : built_.problem.measures()) {
-      const auto series = built_.first.series.find(measure.interface + ".gap");
-      if (measure.name != "gap" || series == built_.first.series.end()) continue;
+    for (const InterfaceMeasure& measure : at_.built.problem->measures()) {
+      const auto series = at_.first.series.find(measure.interface + ".gap");
+      if (measure.name != "gap" || series == at_.first.series.end()) continue;
       const double gap = series->second.front();
       double size = 0;
-      for (const Field* field : built_.problem.interfaces().at(measure.interface).front().domain->fields())
+      for (const Field* field :
+           at_.built.problem->interfaces().at(measure.interface).front().domain->fields())
         for (int c = 0; c < field->mesh().owned_cells(); ++c)
           size = std::max(size, field->mesh().diameter(c));
-      size = built_.problem.communicator().max(size);
+      size = at_.built.problem->communicator().max(size);
       if (gap < -0.1 * size)
-        warn(place_of("interfaces", measure.interface),
+        warn(at_.scene.where("interfaces", measure.interface),
              fmt::format("bodies overlap by {:.3g} m at the start, where '{}' is to keep them apart", -gap,
                          measure.interface));
     }
@@ -97,23 +93,23 @@ class Doubts {
 
   void add_body(const std::string& name, const Interface& interface) {
     const std::string field = interface.fields().front();
-    for (const FieldEntry& entry : built_.problem.fields())
+    for (const FieldEntry& entry : at_.built.problem->fields())
       // In parallel nobody holds the whole mesh.
-      if (entry.name == field && entry.cut && built_.problem.communicator().size() == 1)
+      if (entry.name == field && entry.cut && at_.built.problem->communicator().size() == 1)
         bodies_.push_back({name, field, &interface, entry.mesh.get()});
   }
   [[nodiscard]] std::optional<Surface> surface(const Body& body, double time) const {
-    return body.interface->body({*body.mesh, built_.meshes}, time);
+    return body.interface->body({*body.mesh, meshes_}, time);
   }
 
   void look_at_pairs() {
     std::vector<std::optional<Surface>> surfaces;
-    for (const Body& body : bodies_) surfaces.push_back(surface(body, built_.start));
+    for (const Body& body : bodies_) surfaces.push_back(surface(body, at_.start));
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       for (std::size_t j = i + 1; j < bodies_.size(); ++j) {
         if (!surfaces[i] || !surfaces[j] || bodies_[i].field != bodies_[j].field) continue;
         if (const auto at = vertex_inside(*surfaces[i], *surfaces[j]))
-          warn(place_of("interfaces", bodies_[j].name),
+          warn(at_.scene.where("interfaces", bodies_[j].name),
                fmt::format(
                    "the bodies of '{}' and '{}' overlap, as at ({:.6g}): they count as one where they do, "
                    "and if one moves, it goes through the other",
@@ -123,7 +119,7 @@ class Doubts {
 
   void look_at_reaction(const std::string& name, const Parameters& probe) {
     const std::vector<std::string> on = probe.names("on");
-    const auto& fields = built_.problem.fields();
+    const auto& fields = at_.built.problem->fields();
     const auto entry = std::ranges::find(fields, probe.text("field"), &FieldEntry::name);
     if (entry == fields.end()) return;
     const auto holds = [&](const PrescribedCondition& condition) {
@@ -138,20 +134,19 @@ class Doubts {
 
   /// Checks and statistics that look where the run does not come to.
   void look_at_times() {
-    const double slack = 1e-9 * (built_.end - built_.start);
+    const double slack = 1e-9 * (at_.end - at_.start);
     const auto look_at = [&](const Parameters& p, const std::string& key, double least, double most) {
       if (!p.has(key) || (p.number(key) >= least - slack && p.number(key) <= most + slack)) return;
       warn(p.where(key),
            fmt::format("`{}: {:.6g}` lies outside of the run, which goes from t = {:.6g} to {:.6g}: "
                        "there is no number then",
-                       key, p.number(key), built_.start, built_.end));
+                       key, p.number(key), at_.start, at_.end));
     };
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    for (const Parameters& check : built_.scene.root.list("checks"))
-      look_at(check, "at", built_.start, built_.end);
-    for (const auto& [name, p] : built_.scene.root.object("output").map("statistics")) {
-      look_at(p, "from", -infinite, built_.end);
-      look_at(p, "to", built_.start, infinite);
+    for (const Parameters& check : at_.scene.root.list("checks")) look_at(check, "at", at_.start, at_.end);
+    for (const auto& [name, p] : at_.scene.root.object("output").map("statistics")) {
+      look_at(p, "from", -infinite, at_.end);
+      look_at(p, "to", at_.start, infinite);
     }
   }
 
@@ -163,7 +158,7 @@ class Doubts {
     const std::vector<double> at = probe.vector("at");
     for (const Body& body : bodies_) {
       if (body.field != probe.text("field")) continue;
-      const std::optional<Surface> around = surface(body, built_.start);
+      const std::optional<Surface> around = surface(body, at_.start);
       if (around && is_inside(*around, at.data()))
         warn(probe.where("at"),
              fmt::format(
@@ -186,9 +181,9 @@ class Doubts {
     }
     const std::vector<Expression>& velocity = *given;
     constexpr int times = 5;
-    const double span = built_.end - built_.start, step = 1e-6 * span;
+    const double span = at_.end - at_.start, step = 1e-6 * span;
     for (int k = 0; k < times; ++k) {
-      const double t = built_.start + (k + 0.5) / times * span;
+      const double t = at_.start + (k + 0.5) / times * span;
       const auto before = surface(*body, t - step), after = surface(*body, t + step);
       if (!before || !after || before->points.size() != after->points.size()) return;
       const std::size_t dim = before->dimension;
@@ -215,13 +210,14 @@ class Doubts {
     }
   }
 
-  const BuiltScene& built_;
+  const SceneAtStart& at_;
+  const MeshFinder meshes_ = at_.built.mesh_finder();
   std::vector<Body> bodies_;
   std::vector<Diagnostic> found_;
 };
 
 }  // namespace
 
-std::vector<Diagnostic> scene_doubts(const BuiltScene& built) { return Doubts(built).find(); }
+std::vector<Diagnostic> scene_doubts(const SceneAtStart& scene) { return Doubts(scene).find(); }
 
 }  // namespace seam

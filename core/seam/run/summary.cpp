@@ -49,6 +49,7 @@ nlohmann::json histories(const std::vector<NewtonReport>& reports) {
 }  // namespace
 
 nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
+  const RunState& state = session_.state();
   nlohmann::json s;
   s["title"] = scene_.root.text("title");
   s["scene"] = scene_.path.filename().string();
@@ -59,26 +60,27 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["status"] = status();
   if (!failure_.empty()) s["reason"] = failure_;
   if (interruption_) s["reason"] = interruption_->reason;
-  s["time"] = state_.time;
+  s["time"] = state.time;
   s["parameters"] = scene_.parameters;
   s["versions"] = {{"fingerprint", SEAM_FINGERPRINT}, {"trilinos", TRILINOS_VERSION_STRING}};
   s["machine"] = machine();
   s["ranks"] = communicator_.size();
-  s["unknowns"] = unknowns();
-  s["steps"] = state_.step_number;
-  s["rejected_steps"] = state_.rejected_steps;
+  s["unknowns"] = session_.unknowns();
+  s["steps"] = state.step_number;
+  s["rejected_steps"] = state.rejected_steps;
   s["seconds"] = {{"setup", timings_.setup},       {"cut", timings_.cut},       {"pattern", timings_.pattern},
                   {"assembly", timings_.assembly}, {"linear", timings_.linear}, {"output", timings_.output},
                   {"total", timings_.total}};
   s["peak_memory_bytes"] = communicator_.sum(peak_memory());
-  s["newton"] = histories(reports_);
+  s["newton"] = histories(session_.reports());
   s["results"] = nlohmann::json::object();
-  for (const std::string& name : state_.results.names()) s["results"][name] = state_.results.value(name);
+  for (const std::string& name : state.results.names()) s["results"][name] = state.results.value(name);
   s["warnings"] = nlohmann::json::array();
-  for (const Diagnostic& warning : warnings_.all()) s["warnings"].push_back(warning.text());
+  for (const Diagnostic& warning : session_.warnings().all()) s["warnings"].push_back(warning.text());
   s["checks"] = nlohmann::json::array();
   for (const CheckResult& c : checks) {
     s["checks"].push_back({{"that", c.that},
+                           {"kind", c.kind},
                            {"value", c.value},
                            {"expected", c.expected},
                            {"deviation", c.deviation},

@@ -219,7 +219,7 @@ double Expression::operator()(const double* x, int dim, double t) const {
 }
 
 std::vector<Expression> Expression::components(const std::shared_ptr<const Function>& function, int part) {
-  const Function::Part& named = function->parts().at(static_cast<std::size_t>(part));
+  const Function::Member& named = function->members().at(static_cast<std::size_t>(part));
   const auto count = static_cast<std::size_t>(named.components);
   auto values = std::make_shared<LastValues>(LastValues{function, part, std::vector<double>(count)});
   std::vector<Expression> result(count);

@@ -12,12 +12,12 @@ namespace seam {
 class Function {
  public:
   virtual ~Function() = default;
-  struct Part {
+  struct Member {
     std::string name;
     int components;  ///< a tensor row by row: the derivative's direction runs fastest
   };
-  [[nodiscard]] virtual const std::vector<Part>& parts() const = 0;
-  /// @param part index into parts()
+  [[nodiscard]] virtual const std::vector<Member>& members() const = 0;
+  /// @param part index into members()
   /// @param x position, [dimension of the scene]
   /// @param value [components]
   virtual void evaluate(int part, const double* x, double t, double* value) const = 0;

@@ -185,6 +185,12 @@ void apply_overrides(YamlNode& root, const Overrides& overrides) {
   for (const auto& [key, value] : overrides) apply(root, key, value);
 }
 
+Location Scene::where(const std::string& map, const std::string& name) const {
+  for (const auto& [key, entry] : root.map(map))
+    if (key == name) return entry.where();
+  return {};
+}
+
 Scene parse_scene_text(const std::string& text, const std::filesystem::path& path, const Overrides& overrides,
                        PluginHost& host, Registry& registry) {
   static const Schema schema = scene_schema();

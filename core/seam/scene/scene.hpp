@@ -31,6 +31,8 @@ struct Scene {
   /// Where expressions use a part of a function: key path and what the scene says there ("exact.velocity").
   std::map<std::string, std::string> function_parts;
   Diagnostics warnings;
+  /// The place of an entry in one of its maps: "interfaces", "gamma"; none where there is no such entry.
+  [[nodiscard]] Location where(const std::string& map, const std::string& name) const;
 };
 
 /// The version of the format that this Seam reads. It grows when a scene of today would mean something else.

@@ -312,7 +312,7 @@ class Validator {
     }
     if (!found->second) return std::vector<Expression>{};
     std::vector<std::string> known;
-    for (const Function::Part& part : found->second->parts()) {
+    for (const Function::Member& part : found->second->members()) {
       if (part.name == wanted) {
         context_.function_parts[key_path(path)] = node.scalar;
         return Expression::components(found->second, static_cast<int>(known.size()));

@@ -73,8 +73,8 @@ void FieldBuilder::require_term(const Term* term, bool is_quantity) const {
                        term_name(*term)));
 }
 
-Field::Place FieldBuilder::component_place(const std::string& unknown, int component) const {
-  Field::Place place = entry_.field->place(unknown);
+Field::ComponentRange FieldBuilder::component_place(const std::string& unknown, int component) const {
+  Field::ComponentRange place = entry_.field->place(unknown);
   if (component < 0 || component >= place.components)
     refuse(fmt::format("its build() speaks of component {} of '{}', which has {}: 0 is the first", component,
                        unknown, place.components));
@@ -224,7 +224,7 @@ void FieldBuilder::add_ghost_face_term(GhostFaces faces, std::shared_ptr<const T
 
 void FieldBuilder::fix_level(const std::string& unknown, double value,
                              std::vector<std::string> open_boundaries) {
-  const Field::Place place = entry_.field->place(unknown);
+  const Field::ComponentRange place = entry_.field->place(unknown);
   if (place.components != 1)
     refuse(fmt::format("its build() fixes the level of '{}', which has {} components; only a scalar has one",
                        unknown, place.components));
@@ -233,7 +233,7 @@ void FieldBuilder::fix_level(const std::string& unknown, double value,
 
 void FieldBuilder::prescribe(const std::string& boundary, const std::string& unknown, int component,
                              Expression value, const Location& where) {
-  const Field::Place place = component_place(unknown, component);
+  const Field::ComponentRange place = component_place(unknown, component);
   for (const PrescribedCondition& other : entry_.conditions)
     if (other.boundary == boundary && other.block == place.block && other.component == place.offset)
       throw Error(
@@ -247,17 +247,17 @@ void FieldBuilder::prescribe(const std::string& boundary, const std::string& unk
 }
 
 void FieldBuilder::give(const std::string& unknown, int component, Expression value) {
-  const Field::Place place = component_place(unknown, component);
+  const Field::ComponentRange place = component_place(unknown, component);
   entry_.given.push_back({place.block, place.offset, std::move(value)});
 }
 
 void FieldBuilder::set_initial(const std::string& unknown, int component, Expression value) {
-  const Field::Place place = component_place(unknown, component);
+  const Field::ComponentRange place = component_place(unknown, component);
   entry_.initial.push_back({place.block, place.offset, std::move(value), false});
 }
 
 void FieldBuilder::set_initial_rate(const std::string& unknown, int component, Expression value) {
-  const Field::Place place = component_place(unknown, component);
+  const Field::ComponentRange place = component_place(unknown, component);
   entry_.initial.push_back({place.block, place.offset, std::move(value), true});
 }
 

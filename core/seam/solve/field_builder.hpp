@@ -50,7 +50,7 @@ class FieldBuilder final : public FieldSetup {
   [[noreturn]] void refuse(const std::string& what) const;
   void require_term(const Term* term, bool is_quantity) const;
   /// A component of one of the field's unknowns: its place in the block.
-  [[nodiscard]] Field::Place component_place(const std::string& unknown, int component) const;
+  [[nodiscard]] Field::ComponentRange component_place(const std::string& unknown, int component) const;
   /// With the region in which it holds on these sides.
   [[nodiscard]] BoundTerm bind(std::shared_ptr<const Term> term, std::vector<Operand> operands,
                                int sides = 1) const;

@@ -41,7 +41,7 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
   }
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
-      const Field::Place place = entry.field->place(unknown.name);
+      const Field::ComponentRange place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
       // Squares of residual, magnitude, increment, change in the step, rounding.
       std::vector<double> sums(5, 0.0);
@@ -110,7 +110,7 @@ double Newton::distance(double factor) const {
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
       if (unknown.unit != "m") continue;
-      const Field::Place place = entry.field->place(unknown.name);
+      const Field::ComponentRange place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
       for (int node = 0; node < block.space->owned_nodes(); ++node)
         for (int c = 0; c < place.components; ++c)

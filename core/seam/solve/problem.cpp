@@ -67,7 +67,7 @@ void carry_rates_of(const BoundTerm& bound, const std::vector<Field*>& fields) {
     const auto k = static_cast<std::size_t>(slot.operand);
     if (slot.level == Level::now || slot.level == Level::old || k >= bound.operands.size()) continue;
     const Operand& operand = bound.operands[k];
-    const Field::Place place = fields.at(operand.side)->place(operand.unknown);
+    const Field::ComponentRange place = fields.at(operand.side)->place(operand.unknown);
     Block& block = fields[operand.side]->blocks()[place.block];
     for (int c = place.offset; c < place.offset + place.components; ++c)
       block.time_order[c] = std::max(block.time_order[c], slot.level == Level::second_rate ? 2 : 1);
@@ -166,7 +166,7 @@ void Problem::carry_rates() {
     for (const BoundTerm& bound : terms) carry_rates_of(bound, fields);
   }
   for (const InterfaceMeasure& measure : measures_)
-    for (const InterfaceMeasure::Share& share : measure.shares)
+    for (const InterfaceMeasure::PartIntegral& share : measure.integrals)
       carry_rates_of(share.quantity, share.domain->fields());
 }
 

@@ -74,11 +74,11 @@ struct FieldEntry {
 /// A number that a coupling wants recorded.
 struct InterfaceMeasure {
   std::string interface, name;  ///< recorded as the series "interface.name"
-  struct Share {
+  struct PartIntegral {
     std::shared_ptr<const IntegrationDomain> domain;
     BoundTerm quantity;
   };
-  std::vector<Share> shares;  ///< one for each part of the interface that counts
+  std::vector<PartIntegral> integrals;  ///< one for each part of the interface that counts
   MeasureOf of;
 };
 

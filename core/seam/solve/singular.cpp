@@ -37,7 +37,7 @@ struct Mode {
 /// Constants of an unknown's components and, of a vector, rotations.
 void add_modes(const FieldEntry& entry, const Unknown& unknown, const ConnectedNodes& parts, int part,
                std::vector<Mode>& modes) {
-  const Field::Place place = entry.field->place(unknown.name);
+  const Field::ComponentRange place = entry.field->place(unknown.name);
   const Block& block = entry.field->blocks()[place.block];
   const int dim = entry.mesh->dimension();
   const bool vector = place.components == dim;

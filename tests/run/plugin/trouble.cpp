@@ -21,7 +21,7 @@ using seam::Parameters;
 class Slow final : public Function {
  public:
   explicit Slow(const Parameters& p) : seconds_(p.number("seconds")), load_(p.number("load")) {}
-  [[nodiscard]] const std::vector<Part>& parts() const override { return parts_; }
+  [[nodiscard]] const std::vector<Member>& members() const override { return members_; }
   void evaluate(int /*part*/, const double* /*x*/, double t, double* value) const override {
     if (t != last_ && t > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
     last_ = t;
@@ -29,7 +29,7 @@ class Slow final : public Function {
   }
 
  private:
-  std::vector<Part> parts_{{"load", 1}};
+  std::vector<Member> members_{{"load", 1}};
   double seconds_, load_;
   mutable double last_ = 0;
 };
@@ -39,7 +39,7 @@ class Trouble final : public Function {
  public:
   explicit Trouble(const Parameters& p)
       : at_(p.number("at")), load_(p.number("load")), what_(p.text("what")), rank_(p.text("rank")) {}
-  [[nodiscard]] const std::vector<Part>& parts() const override { return parts_; }
+  [[nodiscard]] const std::vector<Member>& members() const override { return members_; }
   void evaluate(int /*part*/, const double* /*x*/, double t, double* value) const override {
     value[0] = load_;
     const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
@@ -50,7 +50,7 @@ class Trouble final : public Function {
   }
 
  private:
-  std::vector<Part> parts_{{"load", 1}};
+  std::vector<Member> members_{{"load", 1}};
   double at_, load_;
   std::string what_, rank_;
 };

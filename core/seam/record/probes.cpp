@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/record/probes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace seam {
+
+namespace {
+
+/// The field a probe speaks of: named, or the one on the interface's first side.
+std::string field_of(const Parameters& p, const Problem& problem) {
+  if (p.has("field") == p.has("interface"))
+    throw Error(p.where(), "a probe needs either `field` or `interface`");
+  if (p.has("field")) return p.text("field");
+  return problem.interfaces().at(p.text("interface")).front().domain->fields().front()->name();
+}
+
+/// Reactions are those of a field's first unknown.
+/// @throws Error where the boundaries prescribe others only
+void require_prescribed(const FieldEntry& entry, const std::vector<std::string>& boundaries) {
+  const Unknown& first = entry.field->unknowns().front();
+  std::string other;
+  for (const PrescribedCondition& condition : entry.conditions) {
+    const bool is_meant =
+        boundaries.end() != std::ranges::find(boundaries, condition.boundary) || condition.boundary.empty();
+    if (is_meant && condition.unknown == first.name) return;
+    if (is_meant) other = condition.unknown;
+  }
+  if (other.empty()) return;
+  throw Error(
+      fmt::format("a reaction is what holds the first unknown of a field, here '{}', but on {} only "
+                  "'{}' is prescribed; that of another unknown cannot be recorded yet",
+                  first.name, fmt::join(boundaries, ", "), other));
+}
+
+}  // namespace
+
+Probe::Probe(std::string name, const Parameters& p, Problem& problem)
+    : name_(std::move(name)),
+      where_(p.has("component") ? p.where("component") : p.where()),
+      field_(field_of(p, problem)),
+      quantity_name_(p.text("quantity")) {
+  const FieldEntry& entry = problem.field(field_);
+  if (p.has("interface")) interface_ = p.text("interface");
+  if (p.has("on")) boundaries_ = p.names("on");
+  if (p.has("component")) component_ = p.text("component");
+  choose_quantity(p, entry);
+  if (!interface_.empty() || !boundaries_.empty()) return;
+  const bool on_point = entry.physics->support() == Support::point;
+  if (!p.has("at") && !on_point) throw Error(p.where(), "a probe needs `at`, a point, or `on`, boundaries");
+  point_.emplace(entry, p.has("at") ? p.vector("at") : std::vector<double>(3, 0.0), p.where("at"));
+}
+
+void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
+  // The force that holds what is prescribed: known only where something is prescribed.
+  reaction_ = quantity_name_ == "reaction";
+  force_ = quantity_name_ == "force" && !interface_.empty();
+  try {
+    if (reaction_ && boundaries_.empty())
+      throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
+    quantity_ =
+        find_quantity(entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
+    if (reaction_) require_prescribed(entry, boundaries_);
+    if (quantity_.components == 1 && !component_.empty() && component_ != "magnitude" && !force_)
+      throw Error(
+          fmt::format("'{}' is one number, without components: leave `component` out", quantity_name_));
+  } catch (const Error& error) {
+    throw Error(p.where("quantity"), error.what());
+  }
+}
+
+std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const {
+  const FieldEntry& entry = problem.field(field_);
+  if (force_) return interface_force(problem, interface_, entry.field->unknowns().at(0).name, at);
+  if (!interface_.empty()) return interface_integral(problem, interface_, quantity_, at);
+  if (reaction_) return reaction(problem, entry, entry.field->unknowns().at(0).name, boundaries_);
+  if (point_) return point_->evaluate(entry, quantity_, at);
+  return boundary_integral(entry, boundaries_, quantity_, at);
+}
+
+void Probe::record(Problem& problem, const TimePoint& at, Results& results) const {
+  const std::vector<double> values = evaluate(problem, at);
+  static const std::vector<std::string> axes{"x", "y", "z"};
+  static const std::vector<std::string> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
+  if (component_ == "magnitude") {
+    double square = 0;
+    for (const double v : values) square += v * v;
+    results.series[name_].push_back(std::sqrt(square));
+  } else if (!component_.empty()) {
+    const std::size_t c = component_[0] - 'x';
+    if (c >= values.size())
+      throw Error(where_,
+                  fmt::format("probe '{}': '{}' has {} component{}, no component '{}'", name_, quantity_name_,
+                              values.size(), values.size() == 1 ? "" : "s", component_));
+    results.series[name_].push_back(values[c]);
+  } else if (values.size() == 1) {
+    results.series[name_].push_back(values[0]);
+  } else {
+    const auto& names = values.size() == 6 ? tensor : axes;
+    for (std::size_t c = 0; c < values.size(); ++c)
+      results.series[name_ + "." + (c < names.size() ? names[c] : std::to_string(c + 1))].push_back(
+          values[c]);
+  }
+}
+
+void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
+  for (const InterfaceMeasure& measure : problem.measures())
+    results.series[measure.interface + "." + measure.name].push_back(
+        interface_measure(measure, at, problem.communicator()));
+  for (const FieldEntry& entry : problem.fields()) {
+    if (entry.cut) results.series[entry.name + ".dropped_volume"].push_back(entry.cut->dropped_volume());
+    if (entry.integrals.empty()) continue;
+    const CellDomain cells(*entry.field, 2 * entry.field->order());
+    for (const FieldQuantity& integral : entry.integrals) {
+      const int components = integral.terms.front().term->signature(entry.mesh->dimension()).values;
+      const auto values = cell_integral(cells, {integral.terms, components}, at);
+      results.series[entry.name + "." + integral.name].push_back(values.at(0));
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+
+#include "seam/record/evaluate.hpp"
+#include "seam/record/results.hpp"
+
+namespace seam {
+
+/// Something recorded at every step under one or more names.
+class Probe {
+ public:
+  /// Collective. @param parameters an entry of a scene's output.probes
+  Probe(std::string name, const Parameters& parameters, Problem& problem);
+  /// Appends the present values to `results`: `name`, or `name.x`, `name.y`, ... for several components.
+  /// Collective.
+  void record(Problem& problem, const TimePoint& at, Results& results) const;
+
+ private:
+  void choose_quantity(const Parameters& parameters, const FieldEntry& entry);
+  [[nodiscard]] std::vector<double> evaluate(Problem& problem, const TimePoint& at) const;
+  std::string name_;
+  Location where_;  ///< of the component, else of the probe
+  std::string field_;
+  std::string quantity_name_;
+  NamedQuantity quantity_;
+  std::vector<std::string> boundaries_;
+  std::optional<ProbePoint> point_;
+  std::string interface_;
+  bool force_ = false;
+  bool reaction_ = false;
+  std::string component_;  ///< "", "x", "y", "z" or "magnitude"
+};
+
+/// Appends the integrals that each field's physics declares, as `field.name`. Collective.
+void record_integrals(Problem& problem, const TimePoint& at, Results& results);
+
+}  // namespace seam

@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/record/restart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "seam/base/all_or_none.hpp"
+#include "seam/base/checksum.hpp"
+#include "seam/output/safe_file.hpp"
+
+namespace seam {
+namespace {
+
+// File: magic, format number, length of a JSON header, header, doubles, checksum of all that.
+constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '3'};
+
+std::string block_name(const FieldEntry& entry, std::size_t b) {
+  return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());
+}
+
+nlohmann::json describe(const FieldEntry& entry, std::size_t b) {
+  Block& block = entry.field->blocks()[b];
+  return {{"name", block_name(entry, b)},
+          {"nodes", block.space->global_bound()},
+          {"size", block.size},
+          {"levels", block.now.levels().size()}};
+}
+
+/// "320 nodes of water/order 1 with 3 numbers each, of 2 levels in time"
+std::string in_words(const nlohmann::json& block) {
+  const auto number = [&](const char* key) { return block.value(key, nlohmann::json()).dump(); };
+  return fmt::format("{} nodes of {} with {} numbers each, of {} levels in time", number("nodes"),
+                     number("name"), number("size"), number("levels"));
+}
+
+/// Values by global number, on rank 0: [global entity][component].
+/// @param global number of each owned entity @param count of all of them
+std::vector<double> collect(const Communicator& communicator, const std::vector<int>& global, int count,
+                            int size, const std::vector<double>& values) {
+  std::vector<std::vector<int>> entities(communicator.size());
+  std::vector<std::vector<double>> data(communicator.size());
+  entities[0] = global;
+  data[0].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(global.size()) * size);
+  const auto all_entities = communicator.exchange(entities);
+  const auto all_data = communicator.exchange(data);
+  if (communicator.rank() != 0) return {};
+  std::vector<double> result(static_cast<std::size_t>(count) * size, 0.0);
+  for (std::size_t r = 0; r < all_entities.size(); ++r)
+    for (std::size_t k = 0; k < all_entities[r].size(); ++k)
+      std::copy_n(all_data[r].begin() + static_cast<std::ptrdiff_t>(k) * size, size,
+                  result.begin() + static_cast<std::ptrdiff_t>(all_entities[r][k]) * size);
+  return result;
+}
+
+/// @param values [local node][component]
+std::vector<double> collect_nodes(const Space& space, int size, const std::vector<double>& values) {
+  std::vector<int> global;
+  for (int n = 0; n < space.owned_nodes(); ++n) global.push_back(space.global_node(n));
+  return collect(space.mesh().communicator(), global, space.global_bound(), size, values);
+}
+
+std::vector<double> numbers(const std::vector<char>& flags) { return {flags.begin(), flags.end()}; }
+
+/// What was decided about a field's cut (FieldCut::Memory), [cell of the whole mesh][decision, held].
+std::vector<double> collect_decisions(const FieldEntry& entry) {
+  const Mesh& mesh = *entry.mesh;
+  const FieldCut::Memory memory = entry.cut->memory();
+  std::vector<int> global;
+  std::vector<double> values;
+  for (int c = 0; c < mesh.owned_cells(); ++c) {
+    global.push_back(mesh.global_cell(c));
+    values.push_back(memory.decision.empty() ? 0 : memory.decision[c]);
+    values.push_back(memory.held.empty() ? 0 : memory.held[c]);
+  }
+  return collect(mesh.communicator(), global, static_cast<int>(mesh.owner_of_global_cell().size()), 2,
+                 values);
+}
+
+/// @param all as collect_decisions() gives it
+FieldCut::Memory decisions(const Mesh& mesh, const std::vector<double>& all) {
+  FieldCut::Memory memory;
+  bool holds = false;
+  for (int c = 0; c < mesh.cells(); ++c) {
+    const std::size_t at = 2 * static_cast<std::size_t>(mesh.global_cell(c));
+    memory.decision.push_back(static_cast<char>(all[at]));
+    memory.held.push_back(static_cast<char>(all[at + 1]));
+    holds = holds || memory.held.back() != 0;
+  }
+  if (!mesh.communicator().any(holds)) memory.held.clear();
+  return memory;
+}
+
+std::string read_all(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Error(fmt::format("cannot read the restart point '{}'", file.string()));
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+Error damaged_file(const std::filesystem::path& file) {
+  return Error(fmt::format("the restart point '{}' is damaged or incomplete", file.string()));
+}
+
+/// Header and payload of a complete file; throws when anything is damaged.
+nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes, const double*& payload,
+                     std::size_t& count) {
+  const auto damaged = [&] { return damaged_file(file); };
+  std::uint64_t length = 0, sum = 0;
+  constexpr std::size_t fixed = sizeof magic + sizeof length;
+  if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + sizeof magic, bytes.begin()))
+    throw damaged();
+  std::copy_n(bytes.data() + sizeof magic, sizeof length, reinterpret_cast<char*>(&length));
+  std::copy_n(bytes.data() + bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<char*>(&sum));
+  if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum ||
+      length > bytes.size() - fixed - sizeof sum)
+    throw damaged();
+  auto header = nlohmann::json::parse(
+      bytes.begin() + fixed, bytes.begin() + static_cast<std::ptrdiff_t>(fixed + length), nullptr, false);
+  if (!header.is_object()) throw damaged();
+  payload = reinterpret_cast<const double*>(bytes.data() + fixed + length);
+  count = (bytes.size() - fixed - length - sizeof sum) / sizeof(double);
+  return header;
+}
+
+/// What the header says of the run; throws where something is missing, of another kind, or impossible.
+RunState read_header(const std::filesystem::path& file, const nlohmann::json& header) {
+  RunState state;
+  try {
+    state.time = header.at("time");
+    state.step = header.at("step");
+    state.step_number = header.at("step_number");
+    state.largest = header.at("largest").get<std::vector<double>>();
+    state.iterations = header.at("iterations").get<std::vector<int>>();
+    state.rejected_steps = header.at("rejected_steps");
+  } catch (const nlohmann::json::exception&) {
+    throw damaged_file(file);
+  }
+  if (!std::isfinite(state.time) || !std::isfinite(state.step) || !(state.step > 0) || state.step_number < 0)
+    throw Error(
+        fmt::format("the restart point '{}' holds the time {}, a step of {} s and the number {}: expected a "
+                    "step above 0, "
+                    "a finite time and a number from 0 on; resume from an older one",
+                    file.string(), state.time, state.step, state.step_number));
+  return state;
+}
+
+/// (name, number of values) of each series. A value belongs to a time.
+std::vector<std::pair<std::string, std::size_t>> read_series(const std::filesystem::path& file,
+                                                             const nlohmann::json& header) {
+  std::vector<std::pair<std::string, std::size_t>> all;
+  try {
+    const std::size_t times = header.at("times");
+    for (const auto& series : header.at("series")) {
+      all.emplace_back(series.at("name"), series.at("size"));
+      if (all.back().second != times) throw damaged_file(file);
+    }
+    all.emplace_back("time", times);
+  } catch (const nlohmann::json::exception&) {
+    throw damaged_file(file);
+  }
+  return all;
+}
+
+}  // namespace
+
+void write_restart(const std::filesystem::path& file, const Problem& problem, const RunState& state,
+                   const std::string& run) {
+  nlohmann::json header;
+  header["time"] = state.time;
+  header["step"] = state.step;
+  header["step_number"] = state.step_number;
+  header["largest"] = state.largest;
+  header["iterations"] = state.iterations;
+  header["rejected_steps"] = state.rejected_steps;
+  header["run"] = run;
+  // Series are no JSON: they may be infinite, as a gap is where nothing is opposite.
+  header["times"] = state.results.time.size();
+  header["series"] = nlohmann::json::array();
+  std::vector<double> payload = state.results.time;
+  const auto append = [&](const std::vector<double>& values) {
+    payload.insert(payload.end(), values.begin(), values.end());
+  };
+  for (const auto& [name, values] : state.results.series) {
+    header["series"].push_back({{"name", name}, {"size", values.size()}});
+    append(values);
+  }
+  for (const FieldEntry& entry : problem.fields())
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
+      Block& block = entry.field->blocks()[b];
+      header["blocks"].push_back(describe(entry, b));
+      for (const std::vector<double>* level : block.now.levels())
+        append(collect_nodes(*block.space, block.size, *level));
+      append(collect_nodes(*block.space, 1, numbers(block.known)));
+    }
+  for (const FieldEntry& entry : problem.fields())
+    if (entry.cut) append(collect_decisions(entry));
+  all_or_none<FileError>(problem.communicator(), [&] {
+    if (problem.communicator().rank() != 0) return;
+    // Aligns the doubles that follow.
+    std::string text = header.dump();
+    text.resize((text.size() + 7) / 8 * 8, ' ');
+    const std::uint64_t length = text.size();
+    std::string bytes(magic, sizeof magic);
+    bytes.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
+    bytes.append(reinterpret_cast<const char*>(payload.data()), payload.size() * sizeof(double));
+    const std::uint64_t sum = checksum(bytes);
+    bytes.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+    write_whole_file(file.string(), bytes, Durability::on_disk);
+  });
+}
+
+RunState read_restart(const std::filesystem::path& file, Problem& problem) {
+  const std::string bytes = read_all(file);
+  const double* payload = nullptr;
+  std::size_t count = 0;
+  const nlohmann::json header = parse(file, bytes, payload, count);
+  std::size_t at = 0, which = 0;
+  const auto take = [&](std::size_t size) {
+    if (size > count - at) throw damaged_file(file);
+    const double* from = payload + std::exchange(at, at + size);
+    return std::vector<double>(from, from + size);
+  };
+  RunState state = read_header(file, header);
+  const auto all_series = read_series(file, header);
+  const nlohmann::json blocks = header.value("blocks", nlohmann::json::array());
+  state.results.time = take(all_series.back().second);
+  for (std::size_t s = 0; s + 1 < all_series.size(); ++s)
+    state.results.series[all_series[s].first] = take(all_series[s].second);
+  for (FieldEntry& entry : problem.fields())
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
+      Block& block = entry.field->blocks()[b];
+      const nlohmann::json expected = describe(entry, b);
+      if (!blocks.is_array() || which >= blocks.size() || blocks[which] != expected)
+        throw Error(fmt::format(
+            "the restart point '{}' does not fit this scene: found {}, expected {}; its mesh or the "
+            "order of its unknowns has changed, with which no run can go on",
+            file.string(), blocks.is_array() && which < blocks.size() ? in_words(blocks[which]) : "nothing",
+            in_words(expected)));
+      const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
+      const std::vector<std::vector<double>*> levels = block.now.levels();
+      for (std::vector<double>* level : levels) {
+        const std::vector<double> all = take(size);
+        for (int n = 0; n < block.space->nodes(); ++n)
+          std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(block.space->global_node(n)) * block.size,
+                      block.size, level->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
+      }
+      block.old = block.now;
+      const std::vector<double> known = take(static_cast<std::size_t>(block.space->global_bound()));
+      for (int n = 0; n < block.space->nodes(); ++n)
+        block.known[n] = static_cast<char>(known[block.space->global_node(n)]);
+      entry.field->set_layout(nullptr);
+    }
+  for (FieldEntry& entry : problem.fields())
+    if (entry.cut)
+      entry.cut->recall(
+          decisions(*entry.mesh,
+                    take(2 * static_cast<std::size_t>(entry.mesh->owner_of_global_cell().size()))),
+          state.time);
+  if (at != count) throw damaged_file(file);
+  return state;
+}
+
+std::filesystem::path latest_restart(const std::vector<std::filesystem::path>& points, const std::string& run,
+                                     std::vector<std::string>& warnings) {
+  for (const std::filesystem::path& point : points) {
+    try {
+      const double* payload = nullptr;
+      std::size_t count = 0;
+      const nlohmann::json header = parse(point, read_all(point), payload, count);
+      const auto found = header.find("run");
+      if (found != header.end() && *found == run) return point;
+      warnings.push_back(fmt::format("the restart point '{}' was written by another run", point.string()));
+    } catch (const Error& error) {
+      warnings.emplace_back(error.what());
+    }
+  }
+  return {};
+}
+
+}  // namespace seam

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "seam/run/session.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <ctime>
+
+#include "seam/base/stopwatch.hpp"
+#include "seam/record/derived.hpp"
+#include "seam/run/scene_doubts.hpp"
+
+namespace seam {
+namespace {
+
+/// Of this process: beside others it is what the work takes, not the clock.
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+}  // namespace
+
+Session::Session(const Scene& scene, const Registry& registry, const Communicator& communicator)
+    : scene_(scene), stepper_(scene), warnings_(scene.warnings) {
+  const Stopwatch watch;
+  built_ = build_scene(scene, registry, communicator, stepper_.start());
+  const Parameters& solver = scene.root.object("solver");
+  const Parameters& newton = solver.object("newton");
+  problem().finish(stepper_.start(), newton.boolean("shape_derivatives"));
+  linear_ = registry.create<LinearSolver>("linear_solver", solver.object("linear"));
+  step_ = std::make_unique<TimeStep>(
+      problem(), *linear_,
+      NewtonOptions{newton.number("tolerance"), newton.number("increment_tolerance"),
+                    static_cast<int>(newton.integer("maximum_iterations")), newton.boolean("damping")},
+      stepper_);
+  observables_ = std::make_unique<Observables>(scene, problem());
+  setup_seconds_ = watch.seconds();
+}
+
+void Session::prepare() {
+  state_.time = stepper_.start();
+  state_.step = stepper_.initial();
+  problem().initialise(stepper_.start(), !stepper_.is_static());
+  at_ = time_point(stepper_.start(), 0, stepper_.theta());
+  problem().update_spaces(at_);
+  step_->start();
+  problem().assembler().assemble(at_, false);
+  state_.results.append(observe(at_));
+  static_cast<void>(observables_->errors(state_.time));
+}
+
+void Session::continue_from(const std::filesystem::path& restart_point) {
+  state_ = read_restart(restart_point, problem());
+  step_->set_largest(state_.largest);
+  at_ = time_point(state_.time, 0, stepper_.theta());
+  problem().update_spaces(at_);
+}
+
+void Session::require_held() {
+  const double step = stepper_.is_static() ? 0 : stepper_.initial();
+  const double before = processor_seconds();
+  problem().assembler().assemble(time_point(stepper_.start(), step, stepper_.theta()), true);
+  assembly_seconds_ = processor_seconds() - before;
+  const std::string free = describe_free_modes(problem(), no_resistance);
+  if (!free.empty()) throw Error(scene_.root.where("fields"), free);
+  problem().check_levels();
+}
+
+void Session::find_conflicts() {
+  const std::vector<Diagnostic> at_start = problem().find_conflicts(stepper_.start());
+  std::vector<Diagnostic> conflicts = at_start;
+  for (Diagnostic& later : problem().find_conflicts(stepper_.end()))
+    if (std::ranges::none_of(at_start,
+                             [&](const Diagnostic& d) { return d.where.text() == later.where.text(); }))
+      conflicts.push_back(std::move(later));
+  for (Diagnostic& doubt : scene_doubts({scene_, built_, state_.results, stepper_.start(), stepper_.end()}))
+    conflicts.push_back(std::move(doubt));
+  for (Diagnostic& conflict : conflicts)
+    warnings_.warning(std::move(conflict.where), std::move(conflict.message));
+}
+
+double Session::last_step() const {
+  const std::vector<double>& times = state_.results.time;
+  return times.size() > 1 ? times.back() - times[times.size() - 2] : 0;
+}
+
+Results Session::observe(const TimePoint& at) {
+  const Stopwatch watch;
+  Results row = observables_->row(at);
+  observing_seconds_ += watch.seconds();
+  return row;
+}
+
+/// Newton's method to the end of a step. @return whether it converged, and accurately enough
+bool Session::iterate(double until) {
+  const auto keep_report = [&](const std::string& reason) {
+    reports_.push_back(step_->report());
+    linear_seconds_ += reports_.back().linear_seconds;
+    if (reason.empty()) return;
+    reports_.back().converged = false;
+    reports_.back().reason = reason;
+  };
+  try {
+    step_->begin(state_.time, until, last_step());
+    while (step_->iterate()) continue;
+    keep_report(step_->report().reason);
+  } catch (const StepRefused& refused) {
+    keep_report(refused.what());
+  } catch (const SingularMatrix& singular) {
+    keep_report(singular.what());
+    // What has been held so far is lost on a state that iterations went astray to, as where a body snaps
+    // through.
+    if (state_.step_number == 0) throw;
+  }
+  NewtonReport& report = reports_.back();
+  if (report.converged && stepper_.too_inaccurate(step_->error(), until - state_.time)) {
+    report.converged = false;
+    report.reason = fmt::format("its error in time is {:.1e}", step_->error());
+  }
+  return report.converged;
+}
+
+bool Session::step(double until) {
+  try {
+    if (!iterate(until)) {
+      step_->rewind();
+      ++state_.rejected_steps;
+      return false;
+    }
+    // A row that cannot be had undoes the step, too: what is recorded is a table.
+    state_.results.append(observe(step_->at()));
+  } catch (...) {
+    step_->rewind();
+    throw;
+  }
+  step_->accept();
+  at_ = step_->at();
+  state_.time = until;
+  ++state_.step_number;
+  state_.iterations.push_back(reports_.back().iterations());
+  state_.largest = step_->largest();
+  return true;
+}
+
+void Session::finish_results() {
+  for (const auto& [name, error] : observables_->errors(state_.time)) state_.results.once[name] = error;
+  finish_statistics(scene_, state_.results);
+  int most_linear = 0, frozen = 0;
+  for (const NewtonReport& report : reports_) {
+    if (report.frozen && report.converged) ++frozen;
+    for (const NewtonIteration& iteration : report.history)
+      most_linear = std::max(most_linear, iteration.linear_iterations);
+  }
+  std::vector<int> iterations = state_.iterations;
+  std::sort(iterations.begin(), iterations.end());
+  std::map<std::string, double>& once = state_.results.once;
+  once["newton.iterations.median"] = iterations.empty() ? 0 : iterations[iterations.size() / 2];
+  once["newton.iterations.most"] = iterations.empty() ? 0 : iterations.back();
+  once["steps.taken"] = static_cast<double>(state_.iterations.size());
+  once["steps.rejected"] = static_cast<double>(state_.rejected_steps);
+  once["newton.frozen_steps"] = frozen;
+  once["linear.iterations.most"] = most_linear;
+  once["unknowns"] = static_cast<double>(unknowns());
+}
+
+}  // namespace seam
