@@ -74,6 +74,22 @@ TEST_CASE("a run that fails leaves its reason and the last good state") {
   CHECK(summary(folder, "out")["steps"] == 4);
 }
 
+TEST_CASE("seam verify counts checks by what they say of the program") {
+  const Folder folder;
+  std::string text = pulled;
+  text.replace(text.find("checks: ["), 9,
+               "checks: [{that: unknowns, kind: exact, at_least: 1, source: there are some}, "
+               "{that: tip, kind: trend, at_least: 0, source: pulled upwards}, "
+               "{that: tip, kind: trend, at_most: 0, source: wrong}, "
+               "{that: tip, kind: reference, at_least: 0, source: none}, ");
+  const std::string good = folder.file("good.yaml", pulled), mixed = folder.file("mixed.yaml", text);
+  const Result result = seam("verify " + good + " " + mixed + " --quiet", "env -C " + folder.path.string());
+  INFO(result.output);
+  CHECK(result.code == 1);
+  CHECK_THAT(result.output,
+             Contains("checks that hold: exact 1 of 1, reference 1 of 1, trend 1 of 2, regression 2 of 2\n"));
+}
+
 TEST_CASE("the scene hash tells overrides apart") {
   const Folder folder;
   const std::string scene = folder.file("pulled.yaml", pulled);

@@ -119,6 +119,12 @@ TEST_CASE("a step whose error in time is too large leaves nothing behind") {
   REQUIRE(run(folder, folder.file("a.yaml", scene(load, adaptive + "}}")), "first").code == 0);
   REQUIRE(nlohmann::json::parse(folder.read("first/summary.json"))["rejected_steps"].get<int>() > 0);
   CHECK_THAT(folder.read("first/events.jsonl"), Catch::Contains("its error in time is"));
+  // Those that were refused do not count where a run is to stop: one step before its end.
+  const auto steps = nlohmann::json::parse(folder.read("first/summary.json"))["steps"].get<int>();
+  const std::string part = "run " + (folder.path / "a.yaml").string() + " --quiet --no-picture --folder " +
+                           (folder.path / "part").string();
+  REQUIRE(seam(part + " --stop-after " + std::to_string(steps - 1)).code == 0);
+  CHECK(times(folder, "part").size() == static_cast<std::size_t>(steps));
   const std::string again = adaptive + ", replay: first/series.csv}}";
   REQUIRE(run(folder, folder.file("b.yaml", scene(load, again)), "second").code == 0);
   CHECK(nlohmann::json::parse(folder.read("second/summary.json"))["rejected_steps"].get<int>() == 0);

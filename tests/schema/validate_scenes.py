@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Judges scenes by the JSON Schema that `seam schema` prints, with a validator and a reader of YAML 1.2 that are not Seam's.
+"""Judges scenes by the JSON Schema that `seam schema` prints, with a validator and a reader of YAML 1.2 that are not Seam's;
+and asks every check of a shipped scene for its kind.
 
   tests/schema/validate_scenes.py build/bin/seam      every scene of configs/ is accepted, the broken ones below are refused
 """
@@ -68,6 +69,10 @@ def main():
     assert len(scenes) > 50, f"only {len(scenes)} scenes in {CONFIGS}"
     for scene in scenes:
         judge(scene, scene.read_text(), True)
+        for check in read(scene.read_text()).get("checks", []):
+            if "kind" not in check:
+                failed += 1
+                print(f"{scene}: the check of '{check['that']}' does not say its kind")
     judge("the sound scene", SOUND, True)
     for right, wrong in BROKEN:
         assert right in SOUND, right

@@ -107,6 +107,8 @@ const Results& Simulation::run(const RunOptions& options) {
   end();
   if (own_folder_) {
     own_folder_->finish(status());
+    recorders_.clear();  // they write to it
+    restart_ = nullptr;
     own_folder_.reset();
     folder_ = nullptr;
   }

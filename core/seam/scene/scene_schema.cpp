@@ -182,13 +182,11 @@ Schema check_schema() {
   Schema schema("One thing that must hold at the end of the run; give `is` with `within`, or bounds.");
   schema.text("that", "the number to check: a probe, an error norm, a balance");
   schema
-      .choice(
-          "kind",
-          "what it says of the program: `exact` to rounding and the tolerances of the solvers; `reference`, "
-          "an "
-          "outside value within the error of the discretisation; `trend`, a sign, an order of magnitude or a "
-          "shape; `regression`, a bound that comes from the program's own results",
-          {"exact", "reference", "trend", "regression"})
+      .choice("kind",
+              "what it says of the program: `exact` to rounding and the solvers' tolerances; `reference`, an "
+              "outside value within the discretisation's error; `trend`, a sign, an order of magnitude or a "
+              "shape; `regression`, a bound that comes from the program's own results",
+              {"exact", "reference", "trend", "regression"})
       .otherwise("regression");
   schema.number("is", "its true value").optional();
   schema.text("within", "allowed deviation from `is`: relative as in 0.1%, or absolute").optional();
