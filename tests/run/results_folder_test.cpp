@@ -53,6 +53,18 @@ TEST_CASE("a run replaces what the last one wrote when that has ended, and nothi
     CHECK(folder.read(mine) == "of mine");
 }
 
+TEST_CASE("fields are written at their interval and at the end, and where a run is stopped") {
+  const Folder folder;
+  const std::string rare = "--set output.every=15 ";
+  REQUIRE(run(folder, "whole", rare).code == 0);  // of 40 steps
+  CHECK(count_files(folder.path / "whole/fields") == 4);
+  CHECK(fs::exists(folder.path / "whole/fields/beam-000040.vtu"));
+  REQUIRE(run(folder, "part", rare + "--stop-after 4").code == 0);
+  CHECK(count_files(folder.path / "part/fields") == 2);
+  CHECK(fs::exists(folder.path / "part/fields/beam-000004.vtu"));
+  CHECK(fs::exists(folder.path / "part/restart/00000004.restart"));
+}
+
 TEST_CASE("a run that did not reach its end is kept unless one says otherwise") {
   const Folder folder;
   REQUIRE(run(folder, "r", "--stop-after 12").code == 0);

@@ -85,10 +85,6 @@ RestartRecorder::RestartRecorder(const Scene& scene, const Problem& problem, Res
   most_ = static_cast<std::size_t>(restart.integer("keep"));
 }
 
-void RestartRecorder::begin(const Standing& now, bool resumed) {
-  if (resumed) last_ = now.state.step_number;
-}
-
 void RestartRecorder::take(const Standing& now, const Attempt& /*last*/) {
   if (every_ != 0 && now.state.step_number % every_ == 0) keep(now);
 }

@@ -56,7 +56,6 @@ class LogRecorder final : public Recorder {
 class RestartRecorder final : public Recorder {
  public:
   RestartRecorder(const Scene& scene, const Problem& problem, ResultsFolder& folder);
-  void begin(const Standing& now, bool resumed) override;
   void take(const Standing& now, const Attempt& last) override;
   void keep(const Standing& now) override;
   /// Whether the scene's minutes since the last one are over, by this rank's clock.
@@ -68,7 +67,7 @@ class RestartRecorder final : public Recorder {
   double minutes_;
   long every_;
   std::size_t most_;  ///< that are kept
-  long last_ = -1;    ///< step number of the newest
+  long last_ = -1;    ///< step number of the newest of this process
   Stopwatch watch_;   ///< since then
 };
 
