@@ -22,12 +22,23 @@ std::unique_ptr<Mesh> block(CellType cell, const Corner& low, const Corner& high
   return std::make_unique<Mesh>("block", std::make_shared<MeshData>(make_grid(grid)), Communicator());
 }
 
-/// A stamp of one cell's tetrahedra that has sunk by 0.01 into a step, which ends below it.
+/// The same, its upper side tilted along x about where x = 0.5.
+std::unique_ptr<Mesh> tilted(const Corner& low, const Corner& high, double slope) {
+  Grid grid;
+  grid.cell = CellType::hexahedron;
+  for (int d = 0; d < 3; ++d) grid.lines[d] = graded_lines(low[d], high[d], 1);
+  MeshData data = make_grid(grid);
+  for (std::size_t k = 0; k < data.coordinates.size(); k += 3)
+    if (data.coordinates[k + 2] > 0) data.coordinates[k + 2] += slope * (data.coordinates[k] - 0.5);
+  return std::make_unique<Mesh>("block", std::make_shared<MeshData>(std::move(data)), Communicator());
+}
+
+/// A stamp of one cell's tetrahedra that has sunk by `depth` into a step, which ends below it.
 struct Stamp {
-  explicit Stamp(double edge)
+  explicit Stamp(double edge, double depth = 0.01, double slope = 0)
       : water_mesh(block(CellType::hexahedron, {0, 0, 0}, {1, 1, 1}, 6)),
         stamp_mesh(block(CellType::tetrahedron, {0.25, 0.25, 0.5}, {0.75, 0.75, 0.85}, 1)),
-        step_mesh(block(CellType::hexahedron, {edge, -0.5, -0.5}, {1.5, 1.5, 0.51}, 1)),
+        step_mesh(tilted({edge, -0.5, -0.5}, {1.5, 1.5, 0.5 + depth}, slope)),
         water("water", *water_mesh, {{"p", 1, 1, 0, ""}}),
         stamp("stamp", *stamp_mesh, {{"displacement", 3, 1, 0, "m"}}),
         step("step", *step_mesh, {{"displacement", 3, 1, 0, "m"}}),
@@ -42,6 +53,20 @@ struct Stamp {
     water.occupy(cut.active_cells(), &cut.mesh());
     surface.begin_step();
     surface.follow();
+  }
+  /// Positions of a zone's points on one of its sides, [point].
+  [[nodiscard]] std::vector<Corner> positions(EmbeddedSurface::Zone zone, int side) {
+    const EmbeddedZone domain({&surface, [](EmbeddedSurface*) {}}, zone);
+    std::vector<Corner> result;
+    Element element;
+    for (int e = 0; e < domain.size(); ++e) {
+      domain.fill(e, element);
+      for (int q = 0; q < element.points; ++q) {
+        Corner& x = result.emplace_back();
+        std::copy_n(&element.sides[side].position[static_cast<std::size_t>(q) * 3], 3, x.begin());
+      }
+    }
+    return result;
   }
   /// Of the points of a part on the stamp's lower side.
   [[nodiscard]] double area(EmbeddedSurface::Zone part) const {
@@ -116,4 +141,49 @@ TEST_CASE("closed points stand for all of a facet that is not wet, none for more
     bounded += right.bounded;
   }
   CHECK(bounded > 0);
+}
+
+TEST_CASE("closed points look at the nearest of those wet points that face the other body") {
+  // Half of the stamp is on the step; what is wet and faces it lies on its tilted upper side.
+  Stamp stamp(-0.5, 0, 0.2);
+  const std::vector<Corner> closed = stamp.positions(EmbeddedSurface::closed, 1),
+                            edge = stamp.positions(EmbeddedSurface::closed, 3),
+                            fluid = stamp.positions(EmbeddedSurface::closed, 0),
+                            wet = stamp.positions(EmbeddedSurface::near, 1);
+  REQUIRE(closed.size() >= 3);
+  REQUIRE(wet.size() > 3);
+  const auto distance = [](const Corner& a, const Corner& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  };
+  for (std::size_t q = 0; q < closed.size(); ++q) {
+    double least = 1, most = 0;
+    for (const Corner& x : wet) {
+      least = std::min(least, distance(closed[q], x));
+      most = std::max(most, distance(closed[q], x));
+    }
+    REQUIRE(most > 1.2 * least);
+    CHECK(distance(closed[q], edge[q]) == Approx(least).epsilon(1e-9));
+    CHECK(distance(fluid[q], edge[q]) < 1e-9);
+  }
+}
+
+TEST_CASE("of a facet that is closed in part only points behind the other surface stand for what is closed") {
+  const Stamp stamp(-0.5, 0, 0.05);
+  int points = 0, ahead = 0;
+  for (const EmbeddedSurface::Element& element : stamp.surface.elements(EmbeddedSurface::closed))
+    for (const double gap : element.gap) {
+      CHECK(gap < 0);
+      ++points;
+    }
+  for (const EmbeddedSurface::Element& element : stamp.surface.elements(EmbeddedSurface::near))
+    for (const double gap : element.gap) ahead += gap > 0 ? 1 : 0;
+  CHECK(points > 0);
+  CHECK(ahead > 0);
+  // Half of the lower side, 0.5 by 0.5.
+  CHECK(stamp.area(EmbeddedSurface::closed) == Approx(0.125).epsilon(1e-9));
+}
+
+TEST_CASE("a surface that lies deeper in the other body than the window looks back is refused") {
+  CHECK_NOTHROW(Stamp(-0.5, 0.04));
+  CHECK_THROWS_WITH(Stamp(-0.5, 0.06), Catch::Contains("has passed through"));
 }

@@ -65,6 +65,33 @@ TEST_CASE("The fluid lies outside of all bodies", "[cut][bodies]") {
   }
 }
 
+TEST_CASE("What a part of a surface turned inside out encloses is no body", "[cut][bodies]") {
+  // As where cells of a body have turned over: of winding -1, in one surface with a larger part of winding 1.
+  const auto joined = [](Surface a, const Surface& b) {
+    const int first = static_cast<int>(a.points.size()) / a.dimension;
+    a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+    for (const int v : b.facets) a.facets.push_back(first + v);
+    return a;
+  };
+  for (const CellType type : {CellType::quadrilateral, CellType::hexahedron}) {
+    CAPTURE(name(type));
+    const bool plane = type == CellType::quadrilateral;
+    const Mesh mesh = grid(type, {10, 10, plane ? 0 : 10}, unmoved());
+    CutMesh cut(mesh);
+    const Surface body = plane ? rectangle(.05, .05, .45, .45) : box({.05, .05, .05}, {.45, .45, .45}),
+                  loop = plane ? rectangle(.53, .53, .87, .87) : box({.53, .53, .53}, {.87, .87, .87});
+    cut.cut(std::vector{joined(body, reversed(loop))});
+    check_closure(cut);
+    const double side = .4, sides = plane ? 4 : 6;
+    CHECK(total_fluid(cut) == Approx(1 - std::pow(side, plane ? 2 : 3)).epsilon(1e-12));
+    CHECK(total_interface(cut) == Approx(sides * std::pow(side, plane ? 1 : 2)).epsilon(1e-12));
+    // The same of two bodies.
+    cut.cut(std::vector{joined(body, reversed(loop)), body});
+    check_closure(cut);
+    CHECK(total_fluid(cut) == Approx(1 - std::pow(side, plane ? 2 : 3)).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("Random overlapping outlines: area by inclusion and exclusion", "[cut][bodies]") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> unit(0, 1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several connected parts of the fluid in one cell.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
@@ -148,5 +149,22 @@ TEST_CASE("A hole in a cell does not part it, and fluid joins round the edge of 
     // Only where the plate passes right through: cells between 0.5 and 0.75 in x, in space between 0.25 and
     // 0.75 in y.
     CHECK(parted == (flat ? 1 : 2));
+  }
+}
+
+TEST_CASE("Parts of cells join through what is far narrower than a cell", "[cut][parts_of_cells]") {
+  // Between two plates; the diagonals of their sides lie in those of cells.
+  for (const CellType type : {CellType::quadrilateral, CellType::hexahedron}) {
+    const int dim = type == CellType::quadrilateral ? 2 : 3;
+    const Mesh mesh = grid(type, {4, 4, 4}, unmoved());
+    CutMesh cut(mesh);
+    for (double gap = 1e-11; gap < 1e-2; gap *= 1.7) {
+      CAPTURE(name(type), gap * 1e12);
+      cut.cut(std::vector{plate(dim, 0.53, 0, 0.05), plate(dim, 0.58 + gap, 0, 0.05)});
+      cut.separate_parts();
+      auto volume = volumes_by_walking(cut);
+      REQUIRE(volume.size() == 3);
+      CHECK(*std::min_element(volume.begin(), volume.end()) / gap == Approx(1).epsilon(1e-3));
+    }
   }
 }

@@ -240,3 +240,21 @@ TEST_CASE("A part of the field of just two cells is kept, and one of less is not
     CHECK(pond.cut.dropped_volume() == Approx(height < h ? 2 * h * height : 0).epsilon(1e-9));
   }
 }
+
+TEST_CASE("The trace size of a cell is its volume over its interface, but no more than four of its lengths",
+          "[cut]") {
+  constexpr double h = 0.25;
+  double corner = 0;
+  Pond pond(4);
+  pond.cut.add_body([&](double) {
+    return polygon({{-1, -1, 0}, {corner, -1, 0}, {corner, 0.01, 0}, {-1, 0.01, 0}});
+  });
+  // How far the body's corner reaches into the second cell of the lowest row.
+  for (const double width : {0.2, 0.07, 0.01, 1e-6}) {
+    CAPTURE(width);
+    corner = h + width;
+    pond.cut.begin_step();
+    pond.cut.update(0);
+    CHECK(pond.cut.trace_size(1) == Approx(std::min(h * h / (width + 0.01), 4 * h)).epsilon(1e-9));
+  }
+}

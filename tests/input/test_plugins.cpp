@@ -162,9 +162,24 @@ TEST_CASE("folders that anybody may write to are not searched") {
   CHECK_THAT(host.refused()[0], Contains("everybody may write to it"));
 }
 
+TEST_CASE("fingerprints differ where one of them ends early, too") {
+  CHECK(fingerprint_difference("a=1 b=2", "a=1 b=2").empty());
+  CHECK(fingerprint_difference("a=1", "a=1 b=2") == "nothing (expected b=2)");
+  CHECK(fingerprint_difference("a=1 b=2", "a=3") == "a=1 (expected a=3), b=2 (expected nothing)");
+}
+
 TEST_CASE("damaged libraries give an error, not a crash") {
   const std::string good = read_text(fs::path(SEAM_TEST_PLUGINS) / "libseam_beam.so");
   CHECK(parse_descriptor(good).name == "beam");
+  const PluginDescriptor start;
+  const std::size_t descriptor =
+      good.find(std::string(start.magic, 8) + std::string({char(plugin_abi_major), 0}));
+  REQUIRE(descriptor != std::string::npos);
+  for (const char strange : {'\x1b', '\n', '\x7f', '\x80'}) {
+    std::string bytes = good;
+    bytes[descriptor + offsetof(PluginDescriptor, name)] = strange;
+    CHECK_THROWS_WITH(parse_descriptor(bytes), Contains("name is no readable text"));
+  }
   for (std::size_t length = 0; length < good.size(); length += 1 + length / 50) {
     CHECK_THROWS_AS(parse_descriptor(good.substr(0, length)), Error);
   }

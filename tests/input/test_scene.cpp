@@ -95,6 +95,13 @@ TEST_CASE("a bound is in its range or not, as the schema says") {
   CHECK_FALSE(accepts("order", "3"));
 }
 
+TEST_CASE("a whole number beyond the largest is refused") {
+  CHECK_NOTHROW(parse(good_text(), {{"output.every", "2147483647"}}));
+  for (const std::string number : {"2147483648", "1e20", "1e300"})
+    CHECK_THROWS_WITH(parse(good_text(), {{"output.every", number}}),
+                      Contains("is out of range, expected a whole number of no more than 2147483647"));
+}
+
 TEST_CASE("a scene of a newer format is refused before anything else is said") {
   for (const std::string format : {"", "format: 1\n"}) CHECK_NOTHROW(parse(format + good_text()));
   const std::string newer = "format: 2\nunheard: 3\n" + good_text();

@@ -202,6 +202,15 @@ TEST_CASE("A file that cannot be written is an error, and contradictions are fou
   CHECK_THROWS_AS(write_vtu("a.vtu", wrong), std::logic_error);
 }
 
+TEST_CASE("Pieces are named whatever letters their files' names have") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("run.pvtu");
+  write_pvtu(path, {"a & \"b\"<c>.vtu"}, piece_of(box(CellType::triangle, 1)));
+  std::ifstream stream(path);
+  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  CHECK_THAT(text, Contains("<Piece Source=\"a &amp; &quot;b&quot;&lt;c&gt;.vtu\"/>"));
+}
+
 TEST_CASE("A series of files goes on after a restart") {
   const TemporaryFolder folder;
   const std::string path = folder.path("run.pvd");

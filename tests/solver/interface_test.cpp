@@ -160,6 +160,26 @@ TEST_CASE("faces match up to rounding, not up to what is seen in a picture", "[r
   CHECK_THROWS_WITH(build(-1e-4 / 6), Catch::Contains("no matching face"));
 }
 
+TEST_CASE("the trace size on a matching interface is the volume of the first cell over its face", "[ranks]") {
+  const CellType cell = GENERATE(CellType::quadrilateral, CellType::hexahedron);
+  Problem problem{Communicator()};
+  PlainSetup setup(
+      {&problem.add_field("left", half(cell, 0, 1, 5), std::make_unique<Conductor>(1, "x_min", 0.0)),
+       &problem.add_field("right", half(cell, 1, 2, 3), std::make_unique<Conductor>(1, "x_max", 1.0))},
+      2);
+  Parameters p;
+  p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
+  p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
+  const auto domain = MatchingInterface(p).build(setup).front().domain;
+  Element element;
+  for (int e = 0; e < domain->size(); ++e) {
+    domain->fill(e, element);
+    CHECK(element.trace_size[0] == Approx(0.2).epsilon(1e-12));
+    CHECK(element.cell_size[0] ==
+          Approx(std::hypot(0.2, cell == CellType::hexahedron ? std::sqrt(2) / 6 : 1.0 / 6)));
+  }
+}
+
 TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
   const std::string preconditioner = GENERATE("multigrid", "schur", "ilu");
   auto problem = two_bodies(CellType::hexahedron, 1);
@@ -203,6 +223,86 @@ TEST_CASE("a kept preconditioner serves a matrix that was built anew with the sa
   // As after a step that failed.
   solver.forget();
   CHECK(solver.solve(a, {block}, b, y).new_factorisation);
+}
+
+namespace {
+
+/// Equations of a chain of groups: each is coupled to itself, a little to its neighbours in the group, and to
+/// the equation in the same place of the group before. The groups are blocks.
+Matrix chain(int groups, int size, double before, const std::vector<double>& diagonal, double beside) {
+  Matrix a;
+  const int n = groups * size;
+  a.global_rows = n;
+  std::vector<std::vector<std::pair<int, double>>> rows(n);
+  for (int r = 0; r < n; ++r) {
+    const int place = r % size;
+    if (r >= size) rows[r].emplace_back(r - size, before);
+    if (place > 0) rows[r].emplace_back(r - 1, beside);
+    rows[r].emplace_back(r, diagonal[r % diagonal.size()]);
+    if (place + 1 < size) rows[r].emplace_back(r + 1, beside);
+    a.column_global.push_back(r);
+    a.unknown.push_back(r);
+  }
+  std::size_t entries = 0, k = 0;
+  for (const auto& row : rows) entries += row.size();
+  a.allocate(n, entries, entries);
+  for (int r = 0; r < n; ++r) {
+    for (const auto& [column, value] : rows[r]) {
+      a.column[k] = column;
+      a.value[k++] = value;
+    }
+    a.row_start[r + 1] = k;
+  }
+  return a;
+}
+
+std::vector<EquationBlock> blocks_of(int groups, int size) {
+  std::vector<EquationBlock> blocks(groups);
+  for (int g = 0; g < groups; ++g) {
+    blocks[g].field = std::string(1, static_cast<char>('a' + g));
+    blocks[g].first = g * size;
+    blocks[g].count = size;
+  }
+  return blocks;
+}
+
+}  // namespace
+
+TEST_CASE("of blocks that depend on those before them one sweep is the inverse") {
+  constexpr int groups = 4, size = 6;
+  const Matrix a = chain(groups, size, 3, {4}, -1);
+  KrylovSolver solver(krylov("ilu"));
+  std::vector<double> x;
+  // Of three diagonals, an incomplete factorisation is the whole one.
+  CHECK(solver.solve(a, blocks_of(groups, size), std::vector<double>(a.rows, 1.0), x).iterations == 1);
+}
+
+TEST_CASE("what is kept of a solver is given up once it costs too many iterations") {
+  constexpr int n = 60;
+  const std::vector<double> b(n, 1.0);
+  std::vector<double> x;
+  // A diagonal of k values, seen through the inverse of one of a single value, takes k iterations.
+  const auto solved = [&](LinearSolver& solver, const std::vector<double>& diagonal) {
+    const SolveReport report = solver.solve(chain(1, n, 0, diagonal, 0), blocks_of(1, n), b, x);
+    for (int r = 0; r < n; ++r) REQUIRE(x[r] == Approx(1 / diagonal[r % diagonal.size()]).epsilon(1e-5));
+    return report;
+  };
+  Parameters p;
+  p.set("keep", {4L, {}, {}, true});
+  MumpsSolver direct(p);                  // keeps its factors up to 4 iterations
+  KrylovSolver iterative(krylov("ilu"));  // keeps up to 1.5 times the iterations of the first solve, one here
+  for (LinearSolver* solver : {static_cast<LinearSolver*>(&direct), static_cast<LinearSolver*>(&iterative)}) {
+    CAPTURE(solver == &direct);
+    CHECK(solved(*solver, {1}).new_factorisation);
+    CHECK_FALSE(solved(*solver, {2}).new_factorisation);
+    const SolveReport slow = solved(*solver, {1, 2, 3, 4, 5, 6});
+    CHECK_FALSE(slow.new_factorisation);
+    CHECK(slow.iterations == 6);
+    CHECK(solved(*solver, {1, 2, 3, 4, 5, 6}).new_factorisation);
+    CHECK_FALSE(solved(*solver, {1, 2, 3, 4, 5, 6}).new_factorisation);
+  }
+  // After half as many again as it may take the direct solver factorises at once.
+  CHECK(solved(direct, {1, 20, 3, 400, 5, 6000, 7, 80000, 9, 100, 11, 12}).new_factorisation);
 }
 
 TEST_CASE("a solver's word is not taken for its solution", "[ranks]") {

@@ -7,9 +7,12 @@
 
 namespace seam::test {
 
-/// What a term gives at a single point for what it reads, slot by slot.
-inline std::vector<double> residual(const Term& term, int dim, const std::vector<double>& inputs,
-                                    const std::vector<double>& normal = {}, double trace_size = 0.3) {
+/// What a term or a quantity gives at a single point for what it reads, slot by slot.
+/// @param size of what it gives
+template <class Evaluated>
+std::vector<double> at_one_point(const Evaluated& evaluated, int dim, const std::vector<double>& inputs,
+                                 std::size_t size, const std::vector<double>& normal = {},
+                                 double trace_size = 0.3) {
   const double position[3] = {0.3, -0.4, 0.7}, cell_size = 0.3;
   const double factors[3][3] = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}};
   PointBatch batch;
@@ -21,9 +24,14 @@ inline std::vector<double> residual(const Term& term, int dim, const std::vector
   batch.trace_size = &trace_size;
   batch.inputs = inputs.data();
   batch.level_factor = factors;
-  std::vector<double> result(term.signature(dim).output_size(dim));
-  term.evaluate(batch, result.data(), nullptr);
+  std::vector<double> result(size);
+  evaluated.evaluate(batch, result.data(), nullptr);
   return result;
+}
+
+inline std::vector<double> residual(const Term& term, int dim, const std::vector<double>& inputs,
+                                    const std::vector<double>& normal = {}, double trace_size = 0.3) {
+  return at_one_point(term, dim, inputs, term.signature(dim).output_size(dim), normal, trace_size);
 }
 
 }  // namespace seam::test

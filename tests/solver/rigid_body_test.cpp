@@ -23,8 +23,10 @@ const std::vector<std::pair<double, Triple>> points{
 /// Keeps the terms of the body; nothing else is asked of it.
 class Terms final : public FieldSetup {
  public:
+  explicit Terms(int dim = 3) : dim_(dim) {}
   std::vector<std::shared_ptr<const Term>> all;
-  [[nodiscard]] int dimension() const override { return 3; }
+  std::shared_ptr<const Term> energy;
+  [[nodiscard]] int dimension() const override { return dim_; }
   void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string>) override {
     all.push_back(std::move(term));
   }
@@ -37,7 +39,9 @@ class Terms final : public FieldSetup {
     }
     return m;
   }
-  void add_integral(const std::string&, std::shared_ptr<const Term>, std::vector<std::string>) override {}
+  void add_integral(const std::string&, std::shared_ptr<const Term> term, std::vector<std::string>) override {
+    energy = std::move(term);
+  }
 
   [[nodiscard]] const std::string& field_name() const override { throw unexpected(); }
   [[nodiscard]] std::vector<std::string> boundaries() const override { throw unexpected(); }
@@ -75,6 +79,7 @@ class Terms final : public FieldSetup {
   }
 
  private:
+  int dim_;
   static std::logic_error unexpected() { return std::logic_error("a rigid body asks for this"); }
 };
 
@@ -83,17 +88,19 @@ struct Constants {
   Triple moment{};
 };
 
-solid::RigidBody body_of(const Constants& constants) {
+Parameters parameters_of(const Constants& constants, int dim = 3) {
   Parameters p;
-  p.set_dimension(3);
+  p.set_dimension(dim);
   p.set("density", {constants.density, {}, {}, true});
   p.set("rotational_stiffness", {constants.stiffness, {}, {}, true});
   p.set("rotational_damping", {constants.damping, {}, {}, true});
   std::vector<Expression> moment;
-  for (const double m : constants.moment) moment.emplace_back(m);
-  p.set("moment", {moment, {true, true, true}, {}, true});
-  return solid::RigidBody(p);
+  for (int k = 0; k < (dim == 2 ? 1 : 3); ++k) moment.emplace_back(constants.moment[k]);
+  p.set("moment", {moment, std::vector<bool>(moment.size(), true), {}, true});
+  return p;
 }
+
+solid::RigidBody body_of(const Constants& constants) { return solid::RigidBody(parameters_of(constants)); }
 
 /// At one instant: the unknowns and their rates.
 struct State {
@@ -112,23 +119,41 @@ Triple place(const solid::RigidBody& body, const Motion& motion, const Triple& x
   return moved;
 }
 
+/// What a term reads of a state.
+std::vector<double> inputs_of(const Term& term, const State& state) {
+  std::vector<double> inputs;
+  for (const Slot& slot : term.signature(3).inputs) {
+    const Motion& level = slot.level == Level::now    ? state.value
+                          : slot.level == Level::rate ? state.rate
+                                                      : state.second_rate;
+    inputs.insert(inputs.end(), level.begin() + 3 * slot.operand, level.begin() + 3 * slot.operand + 3);
+  }
+  return inputs;
+}
+
 /// The sum of what all terms give in the directions of the six unknowns.
 Motion residual(const solid::RigidBody& body, const State& state) {
   Terms setup;
   body.build(setup);
   Motion sum{};
   for (const auto& term : setup.all) {
-    const Signature& s = term->signature(3);
-    std::vector<double> inputs;
-    for (const Slot& slot : s.inputs) {
-      const Motion& level = slot.level == Level::now    ? state.value
-                            : slot.level == Level::rate ? state.rate
-                                                        : state.second_rate;
-      inputs.insert(inputs.end(), level.begin() + 3 * slot.operand, level.begin() + 3 * slot.operand + 3);
-    }
-    const std::vector<double> r = test::residual(*term, 3, inputs);
+    const std::vector<double> r = test::residual(*term, 3, inputs_of(*term, state));
     REQUIRE(r.size() == 6);
     for (int k = 0; k < 6; ++k) sum[k] += r[k];
+  }
+  return sum;
+}
+
+/// Loads on a body at rest in its reference position, in the directions of its unknowns.
+std::vector<double> loads_at_rest(const Parameters& p, int dim) {
+  Terms setup(dim);
+  solid::RigidBody(p).build(setup);
+  std::vector<double> sum(dim == 2 ? 3 : 6, 0.0);
+  for (const auto& term : setup.all) {
+    const std::vector<double> r =
+        test::residual(*term, dim, std::vector<double>(term->signature(dim).input_size(dim), 0.0));
+    // A weight has nothing to say of the rotation.
+    for (std::size_t k = 0; k < r.size(); ++k) sum[k] -= r[k];
   }
   return sum;
 }
@@ -224,4 +249,39 @@ TEST_CASE("moments and dashpots on a turned body work on its turns, its spring o
     INFO("unknown " << k);
     CHECK(r[k] == Approx(work).epsilon(1e-8).margin(1e-9));
   }
+}
+
+TEST_CASE("a rigid body's weight is that of its mass, and a moment turns a plane body as it says") {
+  for (const int dim : {2, 3}) {
+    CAPTURE(dim);
+    Parameters p = parameters_of({2.5, 0, 0, {0.3, -1.2, 0.8}}, dim);
+    std::vector<Expression> gravity{Expression(1.0), Expression(-9.81), Expression(0.5)};
+    gravity.resize(dim, Expression(0.0));
+    p.set("body_force", {gravity, std::vector<bool>(dim, true), {}, true});
+    double volume = 0;
+    for (const auto& point : points) volume += point.first;
+    std::vector<double> expected{2.5 * volume, 2.5 * volume * -9.81};
+    if (dim == 3) expected.push_back(2.5 * volume * 0.5);
+    expected.push_back(0.3);
+    if (dim == 3) expected.insert(expected.end(), {-1.2, 0.8});
+    const std::vector<double> loads = loads_at_rest(p, dim);
+    REQUIRE(loads.size() == expected.size());
+    for (std::size_t k = 0; k < loads.size(); ++k) CHECK(loads[k] == Approx(expected[k]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a rigid body's kinetic energy is that of the points that it is made of") {
+  const solid::RigidBody body = body_of({});
+  Terms setup;
+  body.build(setup);
+  const State s = state();
+  double expected = 0;
+  for (const auto& [mass, x] : points) {
+    const auto& place_of = x;
+    const Triple velocity = slope([&](double t) { return place(body, s.at(t), place_of); }, 1e-3);
+    expected += 0.5 * mass * dot(velocity, velocity);
+  }
+  REQUIRE(setup.energy);
+  CHECK(test::at_one_point(*setup.energy, 3, inputs_of(*setup.energy, s), 1)[0] ==
+        Approx(expected).epsilon(1e-8));
 }

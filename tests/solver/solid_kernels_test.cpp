@@ -98,6 +98,19 @@ TEST_CASE("Cauchy stresses are derivatives of the energy, out of the plane too")
   }
 }
 
+TEST_CASE("von Mises' stress is that of a bar under any rotation, and of pure shear") {
+  // Yield under shear is by the square root of three below that under tension.
+  CHECK(von_mises({7, 0, 0, 0, 0, 0}) == Approx(7).epsilon(1e-14));
+  CHECK(von_mises({7, 7, 7, 0, 0, 0}) == Approx(0).margin(1e-14));
+  for (int shear = 3; shear < 6; ++shear) {
+    std::array<double, 6> stress{};
+    stress[shear] = 7;
+    CHECK(von_mises(stress) == Approx(7 * std::sqrt(3)).epsilon(1e-14));
+  }
+  // Tension along an axis turned about z: half of it on the diagonal, half of it shear.
+  CHECK(von_mises({3.5, 3.5, 0, 3.5, 0, 0}) == Approx(7).epsilon(1e-14));
+}
+
 TEST_CASE("the mixed form is the stationary point of its energy") {
   const int dim = GENERATE(2, 3);
   const double pressure = 0.7, theta = 1.15;
@@ -121,6 +134,28 @@ TEST_CASE("the mixed form is the stationary point of its energy") {
       for (int k = 0; k < dim; ++k) same(r[i * dim + k], stress(i, k));
     same(r[dim * dim], slope([&](double h) { return potential(f, pressure + h, theta); }));
     same(r[dim * dim + 1], slope([&](double h) { return potential(f, pressure, theta + h); }));
+  }
+}
+
+TEST_CASE("the mean stress of the mixed form is its pressure, the rest that of the material") {
+  const int dim = GENERATE(2, 3);
+  const double pressure = 0.7;
+  for (const PotentialPointer& material : materials()) {
+    const Tensor g = displacement_gradient(dim, 8);
+    std::vector<double> in;
+    for (int i = 0; i < dim; ++i)
+      for (int k = 0; k < dim; ++k) in.push_back(g(i, k));
+    // Where the dilation is that of the displacement.
+    in.insert(in.end(), {pressure, determinant(g + identity<3>()) - 1});
+    const auto found = test::at_one_point(*make_quantity(MixedCauchyStress{material}), dim, in, 6);
+    const auto plain = dim == 2 ? cauchy_stress<2>(*material, part_of<2>(g)) : cauchy_stress<3>(*material, g);
+    const double mean = (plain[0] + plain[1] + plain[2]) / 3;
+    for (int k = 0; k < 6; ++k)
+      CHECK(found[k] == Approx(plain[k] + (k < 3 ? pressure - mean : 0)).epsilon(1e-12).margin(1e-13));
+    std::array<double, 6> stress{};
+    std::copy(found.begin(), found.end(), stress.begin());
+    CHECK(test::at_one_point(*make_quantity(MixedVonMises{{material}}), dim, in, 1)[0] ==
+          Approx(von_mises(stress)).epsilon(1e-12));
   }
 }
 

@@ -45,6 +45,10 @@ bool reaches(Polygon polygon, const Convex& part) {
 /// Solid angle of a triangle seen from x, positive from behind (Van Oosterom and Strackee 1983).
 double solid_angle(const std::array<Vector, 3>& corner, const Vector& x) {
   const Vector a = corner[0] - x, b = corner[1] - x, c = corner[2] - x;
+  // From near by, rounding would see a half space behind a needle.
+  const Vector ab = b - a, bc = c - b, ca = a - c, twice_area = cross(ab, bc);
+  const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
+  if (dot(twice_area, twice_area) <= negligible * negligible * longest * longest) return 0;
   const double la = std::sqrt(dot(a, a)), lb = std::sqrt(dot(b, b)), lc = std::sqrt(dot(c, c));
   return 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
 }
