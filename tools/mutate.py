@@ -35,6 +35,7 @@ CHAINS = {
            "scene:fsi/c01 ctest:cut_stress_found",
     "cutfem_fluid": "fluid:kernel_test fluid kit:cutfem_fluid run:moving_mesh_test scene:fluid/couette_slip scene:fluid/patch_shear "
                     "scene:fluid/vortices",
+    "state": "solver cut ctest:solver_on_2_ranks run:restart_test run:separate_parts_test fsi:replay_test run:stepper_test",
     "field": "solver cut ctest:solver_on_3_ranks ctest:cut_on_3_ranks run:restart_test",
     "interface": "mesh solver cut scene:solid/bonded_blocks",
     "linear": "solver ctest:solver_on_2_ranks fluid:linear_solver_test kit:cutfem_fluid",
@@ -52,8 +53,8 @@ CHAINS = {
     "scene": "input cli",
     "solid": "solver kit:solid scene:solid/pressure scene:solid/oscillator scene:solid/spinning_block "
              "scene:solid/cook_incompressible run:physics_test run:energy_test",
-    "solve": "solver run:stepper_test run:time_scheme_test fsi:replay_test run:failure_test fsi:newton_test",
-    "space": "solver cut fluid",
+    "solve": "solver cut run:stepper_test run:time_scheme_test fsi:replay_test run:failure_test fsi:newton_test",
+    "space": "solver cut ctest:cut_on_2_ranks ctest:solver_on_3_ranks fluid run:separate_parts_test fsi:replay_test",
     "surface": "cut contact mesh scene:contact/patch_2d",
     "term": "solver kit:solid fluid kit:cutfem_fluid scene:fluid/patch_shear",
 }

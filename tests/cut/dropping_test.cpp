@@ -102,11 +102,9 @@ TEST_CASE("A step that failed leaves no trace in what is dropped", "[cut][parts]
   constexpr double h = Chambered::h;
   Chambered tried(2.1 * h);
   CHECK(tried.step(0, 2.1 * h) == 0);
-  const FieldCut::Memory before = tried.pond.cut.memory();
-  const std::vector<char> known = tried.pond.field.blocks()[0].known;
+  const StateStore::Snapshot before = tried.pond.field.state().snapshot(0);
   CHECK(tried.step(0.1, 1.8 * h) == Approx(1.8).epsilon(1e-9));
-  tried.pond.cut.recall(before, 0);
-  tried.pond.field.blocks()[0].known = known;
+  tried.pond.field.state().restore(before);
   // Half the step again: the chamber is as large as it was and has been kept all the time.
   CHECK(tried.step(0.05, 2.1 * h) == 0);
 }
@@ -115,13 +113,14 @@ TEST_CASE("A run that is resumed knows what was dropped", "[cut][parts][ranks]")
   constexpr double h = Chambered::h;
   Chambered whole(h);
   CHECK(whole.step(0, h) == Approx(1).epsilon(1e-9));
-  const FieldCut::Memory memory = whole.pond.cut.memory();
+  const StateStore& states = whole.pond.field.state();
+  const StateStore::Snapshot memory = states.snapshot(0);
   CHECK(whole.step(0.1, 2.5 * h) == Approx(2.5).epsilon(1e-9));
 
   Chambered resumed(h);
-  resumed.pond.cut.recall(memory, 0);
+  resumed.pond.field.state().restore(memory);
   resumed.pond.cut.update(0);  // as the states are read, before a step is begun
-  CHECK(resumed.pond.cut.memory() == memory);
+  CHECK(differences(states, resumed.pond.field.state().snapshot(0), memory).empty());
   CHECK(resumed.step(0.1, 2.5 * h) == Approx(2.5).epsilon(1e-9));
 }
 
@@ -154,6 +153,47 @@ TEST_CASE("What the first cut of a step keeps stays in for the step", "[cut][par
   CHECK(cut.dropped_volume() == Approx(1.8 * h * h).epsilon(1e-12));
   cut.begin_step();
   CHECK_FALSE(cut.update(0));
+}
+
+TEST_CASE("What cells keep begins anew where a body has uncovered them, and only there", "[cut][parts]") {
+  Pond pond(10);
+  StateArray<double>& wear = pond.field.state().add<double>(
+      {"wear", points_of_cells(pond.mesh, 4), 1, 2, WhenUncovered::initial}, 0.5);
+  double radius = 0.25;
+  pond.cut.add_body([&](double) { return circle({0.5, 0.5, 0}, radius, 40); });
+  pond.cut.update(0);
+  std::ranges::fill(wear.now(), 3.0);
+  const StateStore::Snapshot before = pond.field.state().snapshot(0);
+  const auto worn = [&] { return std::ranges::count(wear.now(), 3.0); };
+  const auto all = worn();
+  // A try that covers more, and is rewound.
+  radius = 0.29;
+  pond.cut.update(0.2);
+  pond.field.state().restore(before);
+  radius = 0.24;
+  pond.cut.update(0.1);
+  CHECK(worn() == all);
+  // Smaller: 4 points of each cell that comes.
+  const std::vector<char> covered = pond.cut.active_cells();
+  radius = 0.21;
+  pond.cut.update(0.2);
+  std::ptrdiff_t fresh = 0;
+  for (int c = 0; c < pond.mesh.cells(); ++c)
+    fresh += covered[c] == 0 && pond.cut.active_cells()[c] != 0 ? 4 : 0;
+  CHECK(fresh > 0);
+  CHECK(worn() == all - fresh);
+  CHECK(std::ranges::count(wear.now(), 0.5) == fresh);
+  // In the step itself, too; what was there when it began stays.
+  std::ranges::fill(wear.now(), 3.0);
+  radius = 0.25;
+  pond.cut.update(0.2);
+  radius = 0.21;
+  pond.cut.update(0.2);
+  CHECK(worn() == all);
+  pond.field.state().add<double>({"scar", cells_of(pond.mesh), 1, 1, WhenUncovered::refused});
+  CHECK_FALSE(pond.cut.update(0.2));
+  radius = 0.12;
+  CHECK_THROWS_WITH(pond.cut.update(0.3), Catch::Contains("'scar' has nothing to begin with"));
 }
 
 TEST_CASE("Held cells keep their unknowns to the end of the step though a body covers them", "[cut][parts]") {

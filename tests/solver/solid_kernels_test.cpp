@@ -181,3 +181,13 @@ TEST_CASE("pressure pushes across the surface as it lies now") {
     CHECK(r[1] == Approx(-2 * edge[0]).epsilon(1e-13));
   }
 }
+
+TEST_CASE("an elastic support has a stiffness for each direction") {
+  for (const int dim : {2, 3}) {
+    const std::vector<double> stiffness{2, 3, 5}, at{0.7, -0.4, 0.3};
+    const auto push = test::residual(*make_term(solid::Support{{stiffness.begin(), stiffness.begin() + dim}}),
+                                     dim, {at.begin(), at.begin() + dim});
+    REQUIRE(push.size() == static_cast<std::size_t>(dim));
+    for (int i = 0; i < dim; ++i) CHECK(push[i] == Approx(stiffness[i] * at[i]));
+  }
+}

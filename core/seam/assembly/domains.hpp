@@ -116,7 +116,6 @@ class InteriorFaceDomain final : public IntegrationDomain {
   void add(const Mesh::InteriorFace& face);
   Field* field_;
   Faces choice_;
-  std::vector<char> belongs_;  ///< [interior face of the mesh]
   std::vector<OrientedFace> faces_;
   FaceTables tables_;
 };

@@ -32,10 +32,12 @@ void InteriorFaceDomain::update(const Field& field) {
   if (&field != field_) return;
   faces_.clear();
   const auto& faces = field.mesh().interior_faces();
-  belongs_.resize(faces.size(), 0);
+  std::vector<char>* before =
+      choice_ == Faces::all ? nullptr : field_->cut_faces(choice_ == Faces::wet_ghost);
   for (std::size_t k = 0; k < faces.size(); ++k) {
-    belongs_[k] = belongs(faces[k], belongs_[k] != 0) ? 1 : 0;
-    if (belongs_[k] != 0) add(faces[k]);
+    const bool belongs_now = belongs(faces[k], before != nullptr && (*before)[k] != 0);
+    if (before != nullptr) (*before)[k] = belongs_now ? 1 : 0;
+    if (belongs_now) add(faces[k]);
   }
 }
 

@@ -26,32 +26,6 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
-bool same_bits(const NodalState& a, const NodalState& b) {
-  return same_bits(a.value, b.value) && same_bits(a.rate, b.rate) &&
-         same_bits(a.second_rate, b.second_rate) && same_bits(a.mean_rate, b.mean_rate) &&
-         same_bits(a.mean_second_rate, b.mean_second_rate);
-}
-
-bool same_bits(const Problem::Snapshot& a, const Problem::Snapshot& b) {
-  using State = Problem::BlockSnapshot;
-  return a.cuts == b.cuts && std::ranges::equal(a.blocks, b.blocks, [](const State& x, const State& y) {
-           return same_bits(x.now, y.now) && same_bits(x.old, y.old) && x.known == y.known;
-         });
-}
-
-/// Largest difference of two states, over the largest value.
-double relative_difference(const Problem::Snapshot& a, const Problem::Snapshot& b) {
-  double difference = 0, largest = 0;
-  for (std::size_t s = 0; s < std::min(a.blocks.size(), b.blocks.size()); ++s) {
-    const auto &first = a.blocks[s].now.value, &second = b.blocks[s].now.value;
-    for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
-      difference = std::max(difference, std::abs(first[i] - second[i]));
-      largest = std::max(largest, std::abs(first[i]));
-    }
-  }
-  return largest > 0 ? difference / largest : difference;
-}
-
 ConformanceCheck check_own(const Scene& scene, const Results& results) {
   const auto outcomes = evaluate_checks(scene.root.list("checks"), results);
   std::string wrong;
@@ -123,10 +97,11 @@ RunOptions quiet_run(const std::filesystem::path& folder) {
   return options;
 }
 
-/// Takes a step, goes back, lets a longer one fail, goes back, and takes the first one again.
+/// Takes a step, goes back, lets a longer one fail, goes back, and takes the first one again. Whatever
+/// differs then has been remembered by somebody else than the store of states.
 ConformanceCheck check_rewind(Session& half) {
   const std::string name = "rewind of a failed step";
-  Problem& problem = half.problem();
+  const StateStore& states = half.problem().state();
   TimeStep& step = half.time_step();
   const double from = half.state().time, length = half.stepper().initial();
   const auto take = [&](double part, int iterations) {
@@ -134,25 +109,27 @@ ConformanceCheck check_rewind(Session& half) {
     for (int k = 0; k < iterations && step.iterate(); ++k) continue;
   };
   constexpr int plenty = 1000;
-  const Problem::Snapshot before = problem.snapshot(from);
-  const std::vector<double> largest = step.largest();
+  const StateStore::Snapshot before = states.snapshot(from);
   take(1, plenty);
   if (!step.report().converged)
     return conformance_check(name, false, "the step to be repeated fails itself: " + step.report().reason);
-  const Problem::Snapshot once = problem.snapshot(from);
+  const StateStore::Snapshot once = states.snapshot(from);
   step.rewind();
   take(1.7, 2);
   step.rewind();
-  if (!same_bits(problem.snapshot(from), before) || step.largest() != largest)
-    return conformance_check(name, false, "the states before the step are not restored");
+  if (const auto names = differences(states, states.snapshot(from), before); !names.empty())
+    return conformance_check(
+        name, false, fmt::format("the states before the step are not restored: {}", fmt::join(names, ", ")));
   take(1, plenty);
-  const Problem::Snapshot twice = problem.snapshot(from);
-  const bool same = same_bits(once, twice);
-  return conformance_check(name, same,
-                           same ? "the repeated step is the same to the bit"
-                                : fmt::format("the repeated step differs by {:.1e} relative: something "
-                                              "remembers the failed one",
-                                              relative_difference(once, twice)));
+  const StateStore::Snapshot twice = states.snapshot(from);
+  const auto names = differences(states, once, twice);
+  return conformance_check(
+      name, names.empty(),
+      names.empty()
+          ? "the repeated step is the same to the bit"
+          : fmt::format("the repeated step differs by {:.1e} relative in {}: something remembers the "
+                        "failed one",
+                        relative_difference(once, twice), fmt::join(names, ", ")));
 }
 
 ConformanceCheck check_restart(const Scene& scene, const Registry& registry, Simulation& whole,
@@ -169,11 +146,11 @@ ConformanceCheck check_restart(const Scene& scene, const Registry& registry, Sim
     if (other == found.series.end() || !same_bits(other->second, values))
       differs += (differs.empty() ? "" : ", ") + name;
   }
-  const Problem::Snapshot end = second.problem().snapshot(second.session().state().time),
-                          expected_end = whole.problem().snapshot(whole.session().state().time);
-  if (!same_bits(end, expected_end))
-    differs += fmt::format("{}the final state, by {:.1e} relative", differs.empty() ? "" : ", ",
-                           relative_difference(expected_end, end));
+  const StateStore& states = second.problem().state();
+  const StateStore::Snapshot end = states.snapshot(0), expected_end = whole.problem().state().snapshot(0);
+  if (const auto names = differences(states, end, expected_end); !names.empty())
+    differs += fmt::format("{}at the end {}, by {:.1e} relative", differs.empty() ? "" : ", ",
+                           fmt::join(names, ", "), relative_difference(expected_end, end));
   return conformance_check(
       "restart", differs.empty(),
       differs.empty()

@@ -131,7 +131,7 @@ std::vector<double> unknown_scales(const Problem& problem) {
 
 TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at, bool spaces_follow) {
   constexpr int directions = 3;
-  const Problem::Snapshot here = problem.snapshot(at.time);
+  const StateStore::Snapshot here = problem.state().snapshot(at.time);
   assembler.assemble(at, true);
   const std::vector<double> magnitude = assembler.magnitude();
   const auto unknowns = rows_of_unknowns(problem, assembler);
@@ -148,14 +148,14 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
       std::vector<double> direction(assembler.matrix().rows, 0.0), exact(direction.size());
       for (const int r : unknowns[u].rows) direction[r] = scales[u] * part(generator);
       if (spaces_follow) {
-        problem.restore(here);
+        problem.state().restore(here);
         problem.update_spaces(at);
         follow();
         assembler.assemble(at, true);
       }
       multiply(assembler.matrix(), direction, exact);
       const auto residual_at = [&](double step) {
-        problem.restore(here);
+        problem.state().restore(here);
         if (spaces_follow) problem.update_spaces(at);  // and with them the numbering of the direction
         assembler.add_increment(direction, step);
         problem.update_rates(at);
@@ -174,7 +174,7 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
       }
       if (best.relative > worst.relative) worst = {best.relative, best.block + " by " + unknowns[u].name};
     }
-  problem.restore(here);
+  problem.state().restore(here);
   if (spaces_follow) problem.update_spaces(at);
   return worst;
 }

@@ -114,7 +114,12 @@ const std::vector<std::array<double, 2>>& places(int dimension) {
 
 Passage::Passage(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
                  ContactWindow window)
-    : own_(std::move(own)), other_(std::move(other)), window_(window) {}
+    : own_(std::move(own)),
+      other_(std::move(other)),
+      window_(window),
+      is_deep_(own_->body().state().share<char>(
+          {fmt::format("{}/passage/{}", own_->body().name(), other_ ? other_->body().name() : "obstacle"),
+           the_run(own_->body().mesh().communicator())})) {}
 
 void Passage::begin_step(Surface opposite) {
   own_start_ = own_->now();
@@ -125,8 +130,9 @@ void Passage::begin_step(Surface opposite) {
 /// Surfaces that overlap by less than half the depth get out of each other's sight only on a way of the other
 /// half.
 bool Passage::is_needed(double way, double least_gap) {
-  is_deep_ = is_deep_ || least_gap < -0.5 * window_.depth;
-  return has_begun_ && (is_deep_ || way > 0.25 * window_.depth);
+  char& is_deep = is_deep_.now()[0];
+  if (least_gap < -0.5 * window_.depth) is_deep = 1;
+  return has_begun_ && (is_deep != 0 || way > 0.25 * window_.depth);
 }
 
 /// Of a point that has a facet far behind it now. It has passed if it got in and did not get out again, or

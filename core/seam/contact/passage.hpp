@@ -29,7 +29,9 @@ class Passage {
                                 const cutting::Vector& normal, bool overlaps, const Surface& now) const;
   std::shared_ptr<const BodySurface> own_, other_;
   ContactWindow window_;
-  bool is_deep_ = false;  ///< surfaces have overlapped by so much that they might lose each other bit by bit
+  /// Whether surfaces have overlapped by so much that they might lose each other bit by bit: a state of the
+  /// run.
+  StateArray<char>& is_deep_;
   bool has_begun_ = false;
   Surface own_start_, opposite_start_;
 };

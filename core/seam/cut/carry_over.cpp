@@ -70,18 +70,19 @@ std::vector<Source> elect(const std::vector<Vote>& votes, int sets) {
 }
 
 /// @return whether anything moved
-bool move_states(Block& block, int node, const std::vector<Source>& source, const std::vector<char>& used) {
+bool move_states(const std::vector<StateArray<double>*>& states, Block& block, int node,
+                 const std::vector<Source>& source, const std::vector<char>& used) {
   const Space& space = *block.space;
   const int sets = space.sets();
   bool same = true;
   for (int k = 0; k < sets; ++k) same = same && (!used[k] || (source[k].set == k && !source[k].shared));
   if (same) return false;
-  for (NodalState* state : {&block.now, &block.old})
-    for (std::vector<double>* values : state->levels())
-      for (int c = 0; c < block.size; ++c) {
+  for (StateArray<double>* state : states)
+    for (std::vector<double>& values : state->all_levels())
+      for (int c = 0; c < state->size(); ++c) {
         std::vector<double> former(sets);
         const auto at = [&](int set) -> double& {
-          return (*values)[static_cast<std::size_t>(space.in_set(node, set)) * block.size + c];
+          return values[static_cast<std::size_t>(space.in_set(node, set)) * state->size() + c];
         };
         for (int k = 0; k < sets; ++k) former[k] = at(k);
         for (int k = 0; k < sets; ++k)
@@ -112,6 +113,7 @@ std::vector<char> affected_nodes(const Space& space, const PartLayout& before, c
 void carry_over(Field& field, const PartLayout& before, const PartLayout& now, const CutMesh& cut) {
   for (Block& block : field.blocks()) {
     const Space& space = *block.space;
+    const std::vector<StateArray<double>*> states = field.state().extended_on(space);
     const int order = space.order();
     bool changed = false;
     const CellsOfNodes cells_of(space, affected_nodes(space, before, now));
@@ -129,11 +131,11 @@ void carry_over(Field& field, const PartLayout& before, const PartLayout& now, c
             votes.push_back({set, set_at(before, order, cell, former, a), std::max(share, 1e-9)});
         }
       }
-      changed = move_states(block, node, elect(votes, space.sets()), used) || changed;
+      changed = move_states(states, block, node, elect(votes, space.sets()), used) || changed;
     }
     if (!field.mesh().communicator().any(changed)) continue;
-    for (NodalState* state : {&block.now, &block.old})
-      for (std::vector<double>* values : state->levels()) space.halo().update(*values, block.size);
+    for (StateArray<double>* state : states)
+      for (std::vector<double>& values : state->all_levels()) space.halo().update(values, state->size());
     space.halo().update(block.known, 1);
   }
 }

@@ -35,10 +35,22 @@ struct DerivativeJumps {
   }
 };
 
-/// The states to be extended: what the time scheme reads of a step's start and its prediction.
-std::vector<std::vector<double>*> levels(Block& block) {
-  std::vector<std::vector<double>*> all = block.now.levels();
-  for (std::vector<double>* level : block.old.levels()) all.push_back(level);
+/// Nodal numbers to be extended: what the time scheme reads of a step's start and its prediction, and what
+/// others keep at the nodes.
+struct Numbers {
+  std::vector<double>* values;
+  int size;   ///< of a node
+  int first;  ///< column of the right-hand sides
+};
+
+std::vector<Numbers> numbers_on(const Field& field, const Space& space) {
+  std::vector<Numbers> all;
+  int first = 0;
+  for (StateArray<double>* state : field.state().extended_on(space))
+    for (std::vector<double>& level : state->all_levels()) {
+      all.push_back({&level, state->size(), first});
+      first += state->size();
+    }
   return all;
 }
 
@@ -56,6 +68,7 @@ struct KnownPart {
 
 /// The equations of new nodes, and what known ones contribute to them.
 struct Extension::System {
+  std::vector<Numbers> numbers;
   std::vector<MatrixEntry> matrix;
   std::vector<KnownPart> right_side;
   std::map<int, int> index;  ///< global node -> row
@@ -70,7 +83,8 @@ struct Extension::System {
   }
 
   /// [row][column of the right-hand sides]; empty when the known nodes do not determine the new ones.
-  [[nodiscard]] Eigen::MatrixXd solve(int columns) const {
+  [[nodiscard]] Eigen::MatrixXd solve() const {
+    const int columns = numbers.back().first + numbers.back().size;
     const int rows = static_cast<int>(index.size());
     if (rows == 0) return {};  // no face joins them to any
     std::vector<Eigen::Triplet<double>> triplets;
@@ -121,7 +135,7 @@ Field& Extension::carrier(int order) {
   return *carrier;
 }
 
-void Extension::assemble(Block& block, Field& carrier, System& system) {
+void Extension::assemble(const Block& block, Field& carrier, System& system) {
   const InteriorFaceDomain faces(carrier, 2 * block.space->order());
   ElementEvaluator evaluator(faces, {{make_term(DerivativeJumps{}), {Operand{0, "w"}, Operand{1, "w"}}}});
   const Space& space = *block.space;
@@ -144,23 +158,22 @@ void Extension::assemble(Block& block, Field& carrier, System& system) {
   }
 }
 
-void Extension::add(Block& block, int row, int column, double value, System& system) {
+void Extension::add(const Block& block, int row, int column, double value, System& system) {
   const Space& space = *block.space;
   if (!block.known[column]) {
     system.matrix.push_back({space.global_node(row), space.global_node(column), value});
     return;
   }
-  const auto states = levels(block);
-  for (std::size_t l = 0; l < states.size(); ++l)
-    for (int c = 0; c < block.size; ++c)
-      system.right_side.push_back({space.global_node(row), static_cast<int>(l) * block.size + c,
-                                   -value * (*states[l])[static_cast<std::size_t>(column) * block.size + c]});
+  for (const Numbers& n : system.numbers)
+    for (int c = 0; c < n.size; ++c)
+      system.right_side.push_back({space.global_node(row), n.first + c,
+                                   -value * (*n.values)[static_cast<std::size_t>(column) * n.size + c]});
 }
 
 /// Where a pocket opens that hangs on to the rest by a node or two, jumps do not say what its other nodes
 /// are: there they become like those of their cells.
 void Extension::add_means(int number, System& system) {
-  Block& block = field_->blocks()[number];
+  const Block& block = field_->blocks()[number];
   const Mesh& mesh = field_->mesh();
   const int per_cell = block.space->nodes_per_cell();
   double weight = 0;
@@ -196,6 +209,7 @@ void Extension::extend_block(int number) {
     for (const bool with_means : {false, true}) {
       // Few nodes come alive in a step: every rank solves for all of them, and all get the same bits.
       System system;
+      system.numbers = numbers_on(*field_, space);
       assemble(block, scalar, system);
       if (with_means) add_means(number, system);
       system.gather(communicator);
@@ -209,22 +223,21 @@ void Extension::extend_block(int number) {
   block.known = block.active;
 }
 
-bool Extension::set_states(Block& block, const System& system) {
+bool Extension::set_states(const Block& block, const System& system) {
   const Space& space = *block.space;
-  const auto states = levels(block);
-  const Eigen::MatrixXd values = system.solve(static_cast<int>(states.size()) * block.size);
+  const Eigen::MatrixXd values = system.solve();
   bool complete = values.rows() > 0;
-  for (int n = 0; n < space.owned_nodes() && complete; ++n) {
+  for (int n = 0; n < space.owned_nodes(); ++n) {
     if (!block.active[n] || block.known[n]) continue;
     const auto found = system.index.find(space.global_node(n));
     complete = found != system.index.end();
-    for (std::size_t l = 0; l < states.size() && complete; ++l)
-      for (int c = 0; c < block.size; ++c)
-        (*states[l])[static_cast<std::size_t>(n) * block.size + c] =
-            values(found->second, static_cast<int>(l) * block.size + c);
+    if (!complete) break;
+    for (const Numbers& of : system.numbers)
+      for (int c = 0; c < of.size; ++c)
+        (*of.values)[static_cast<std::size_t>(n) * of.size + c] = values(found->second, of.first + c);
   }
   if (space.mesh().communicator().any(!complete)) return false;
-  for (auto* level : states) space.halo().update(*level, block.size);
+  for (const Numbers& of : system.numbers) space.halo().update(*of.values, of.size);
   return true;
 }
 

@@ -25,11 +25,11 @@ class Extension {
  private:
   struct System;
   void check_reach(int block) const;
-  static void assemble(Block& block, Field& carrier, System& system);
-  static void add(Block& block, int row, int column, double value, System& system);
+  static void assemble(const Block& block, Field& carrier, System& system);
+  static void add(const Block& block, int row, int column, double value, System& system);
   void add_means(int block, System& system);
   /// @return false when the system does not determine all new nodes
-  bool set_states(Block& block, const System& system);
+  static bool set_states(const Block& block, const System& system);
   [[nodiscard]] Field& carrier(int order);
   void extend_block(int block);
   Field* field_;

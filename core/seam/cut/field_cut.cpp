@@ -18,7 +18,14 @@ constexpr double smallest_kept = 2;
 }  // namespace
 
 FieldCut::FieldCut(Field& field)
-    : field_(&field), mesh_(field.mesh()), active_(field.mesh().cells(), 1), extension_(field) {
+    : field_(&field),
+      mesh_(field.mesh()),
+      active_(field.mesh().cells(), 1),
+      decision_(field.state().add<char>({field.name() + "/cut/decision", cells_of(field.mesh())})),
+      held_(field.state().add<char>({field.name() + "/cut/held", cells_of(field.mesh())})),
+      extension_(field) {
+  field.remember_cut_faces();
+  field.state().on_return([this](double time) { return_to(time); });
   if (field.sets() > 1) sets_ = std::make_unique<PartSets>(field);
 }
 
@@ -42,10 +49,11 @@ bool FieldCut::update(double time) {
   const bool decides = !decided_;
   decided_ = true;
   if (decides) {
-    held_.clear();
+    std::ranges::fill(held_.now(), 0);
     field_->keep_cut_faces(false);
   }
   if (surfaces == surfaces_ && (!decides || (is_first_cut_ && !is_filling_)) && states_match()) return false;
+  const std::vector<char> before = decision_.now();
   mesh_.cut(surfaces);
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
@@ -54,27 +62,29 @@ bool FieldCut::update(double time) {
   if (decides) area_.clear();
   for (const int c : mesh_.cut_cells()) area_.try_emplace(c, mesh_.interface_area(c));
   for (int c = 0; c < field_->mesh().cells(); ++c)
-    active_[c] = mesh_.state(c) != CellState::body || (!held_.empty() && held_[c] != 0) ? 1 : 0;
+    active_[c] = mesh_.state(c) != CellState::body || held_.now()[c] != 0 ? 1 : 0;
+  uncover(before);
   if (sets_) choose_sets();
   field_->occupy(active_, &mesh_);
   extension_.extend();
   return true;
 }
 
-FieldCut::Memory FieldCut::memory() const {
-  Memory memory;
-  for (const Decision decision : decision_) memory.decision.push_back(static_cast<char>(decision));
-  memory.held = held_;
-  return memory;
-}
-
-void FieldCut::recall(const Memory& memory, double time) {
-  decision_.clear();
-  for (const char decision : memory.decision) decision_.push_back(static_cast<Decision>(decision));
-  held_ = memory.held;
-  decided_ = !decision_.empty();
+void FieldCut::return_to(double time) {
+  const auto is_made = [](char decision) { return static_cast<Decision>(decision) != Decision::none; };
+  decided_ = field_->mesh().communicator().any(std::ranges::any_of(decision_.now(), is_made));
   time_ = time;
   surfaces_.clear();  // the mesh is cut anew, whatever it was cut by last
+}
+
+/// @param before what had been decided of each cell before this cut
+void FieldCut::uncover(const std::vector<char>& before) {
+  std::vector<int> fresh;
+  for (int c = 0; c < field_->mesh().cells(); ++c) {
+    const auto last = static_cast<Decision>(before[c]);
+    if (active_[c] != 0 && last != Decision::none && last != Decision::kept) fresh.push_back(c);
+  }
+  field_->state().uncover(field_->mesh(), fresh);
 }
 
 void FieldCut::choose_sets() {
@@ -208,10 +218,10 @@ std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
 }
 
 /// How many owned cells of each part the last decision, if any, made this.
-std::vector<double> FieldCut::count(Decision decision, const WetParts& parts) const {
+std::vector<double> FieldCut::count(Decision made, const WetParts& parts) const {
   std::vector<double> cells(parts.volume.size(), 0.0);
   for (int c = 0; c < field_->mesh().owned_cells(); ++c)
-    if (!decision_.empty() && parts.part[c] >= 0 && decision_[c] == decision) ++cells[parts.part[c]];
+    if (parts.part[c] >= 0 && decision(c) == made) ++cells[parts.part[c]];
   field_->mesh().communicator().sum(cells);
   return cells;
 }
@@ -225,14 +235,15 @@ std::vector<int> FieldCut::decide() {
   const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
   bool waits = false;
-  decision_.assign(field_->mesh().cells(), Decision::body);
+  const auto decide_on = [&](int c, Decision decision) { decision_.now()[c] = static_cast<char>(decision); };
   for (int c = 0; c < field_->mesh().cells(); ++c) {
     const int part = parts.part[c];
+    decide_on(c, Decision::body);
     if (part < 0) continue;
     const bool is_large = parts.cells[part] >= smallest_kept || open[part];
     const bool is_reached = dropped[part] == 0 || (kept[part] > 0 && has_state(c));
-    decision_[c] = is_large && is_reached ? Decision::kept : Decision::dropped;
-    if (decision_[c] == Decision::kept) continue;
+    decide_on(c, is_large && is_reached ? Decision::kept : Decision::dropped);
+    if (decision(c) == Decision::kept) continue;
     cells.push_back(c);
     waits = waits || (is_large && kept[part] > 0);
   }
@@ -251,7 +262,7 @@ std::vector<int> FieldCut::follow_decision() const {
     const int part = parts.part[c];
     if (part < 0) continue;
     const bool is_small = parts.cells[part] < smallest_kept && !open[part];
-    if (decision_[c] == Decision::dropped || (kept[part] == 0 && (dropped[part] > 0 || is_small)))
+    if (decision(c) == Decision::dropped || (kept[part] == 0 && (dropped[part] > 0 || is_small)))
       cells.push_back(c);
   }
   return cells;

@@ -42,21 +42,9 @@ class FieldCut {
   /// Cells that are active now stay so to the end of the step: covered ones keep their unknowns, held by
   /// ghost penalties alone (thesis 6.3.2), and faces that bear these go on to do so.
   void hold() {
-    held_ = active_;
+    held_.now() = active_;
     field_->keep_cut_faces(true);
   }
-
-  /// What has been decided so far and later cuts go by, [local cell]: with the states, all that a cut depends
-  /// on.
-  struct Memory {
-    std::vector<char> decision;  ///< Decision
-    std::vector<char> held;      ///< see hold()
-    friend bool operator==(const Memory&, const Memory&) = default;
-  };
-  [[nodiscard]] Memory memory() const;
-  /// Goes back to what had been decided by the end of the step that ended at `time`: cuts at that time follow
-  /// it, and the next step decides anew.
-  void recall(const Memory& memory, double time);
 
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
@@ -79,8 +67,13 @@ class FieldCut {
 
  private:
   /// What the first cut of a step made of a local cell.
-  enum class Decision : char { body, kept, dropped };
+  enum class Decision : char { none, body, kept, dropped };
+  /// States are those of a step that ended at `time`: cuts at that time follow what had been decided by then,
+  /// and the next step decides anew.
+  void return_to(double time);
+  [[nodiscard]] Decision decision(int cell) const { return static_cast<Decision>(decision_.now()[cell]); }
   [[nodiscard]] bool states_match() const;
+  void uncover(const std::vector<char>& before);
   void choose_sets();
   void warn_of_shared_sets();
   void warn_of_doubts();
@@ -88,7 +81,7 @@ class FieldCut {
   void check_motion(const PartLayout& before) const;
   void accept_states(bool at_start);
   [[nodiscard]] std::vector<char> open_parts(const WetParts& parts) const;
-  [[nodiscard]] std::vector<double> count(Decision decision, const WetParts& parts) const;
+  [[nodiscard]] std::vector<double> count(Decision made, const WetParts& parts) const;
   /// Whether any node of a local cell has one, in any of its parts.
   [[nodiscard]] bool has_state(int cell) const;
   [[nodiscard]] std::vector<int> decide();
@@ -99,12 +92,13 @@ class FieldCut {
   std::vector<Surface> surfaces_;  ///< at the last update
   std::vector<char> active_;
   std::vector<std::string> open_boundaries_;
-  std::vector<Decision> decision_;  ///< [local cell]
-  bool decided_ = false;            ///< in this step
-  bool is_first_cut_ = false;       ///< the present cut is the one that decided
-  bool is_filling_ = false;         ///< cells of kept parts wait for a state
-  double time_ = 0;                 ///< of the last update
-  std::vector<char> held_;          ///< [local cell]; empty when none is
+  // In the field's store of states: with those of nodes, all that a cut depends on.
+  StateArray<char>& decision_;  ///< Decision of each cell
+  StateArray<char>& held_;      ///< cells, see hold()
+  bool decided_ = false;        ///< in this step
+  bool is_first_cut_ = false;   ///< the present cut is the one that decided
+  bool is_filling_ = false;     ///< cells of kept parts wait for a state
+  double time_ = 0;             ///< of the last update
   double dropped_volume_ = 0;
   std::map<int, double> area_;  ///< of the interface in cells, when first cut in the step
   Extension extension_;

@@ -10,40 +10,100 @@
 
 namespace seam {
 
+namespace {
+
+/// Unknowns that will share a block.
+struct Shared {
+  int order;
+  bool given;
+  std::vector<int> components, time_order;
+};
+
+}  // namespace
+
+Block::Block(const States& states, std::unique_ptr<Space>&& on)
+    : space(std::move(on)),
+      now{states.value.now(), states.rate.now(), states.second_rate.now()},
+      old{states.value.old(), states.rate.old(), states.second_rate.old()},
+      known(states.known.now()) {}
+
+Block::Block(StateStore& store, const std::string& name, std::unique_ptr<Space> on, bool is_given,
+             std::vector<int> components_of_unknowns, std::vector<int> time_orders)
+    : Block(
+          [&]() -> States {
+            const auto nodes = nodes_of(*on);
+            const int numbers = static_cast<int>(time_orders.size());
+            const auto add = [&](const char* level) -> StateArray<double>& {
+              return store.add<double>({name + "/" + level, nodes, numbers, 2, WhenUncovered::extended});
+            };
+            return {add("value"), add("rate"), add("second rate"),
+                    store.add<char>({name + "/known", nodes}, 1)};
+          }(),
+          std::move(on)) {
+  size = static_cast<int>(time_orders.size());
+  given = is_given;
+  components = std::move(components_of_unknowns);
+  time_order = std::move(time_orders);
+}
+
 Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets)
     : name_(std::move(name)),
       mesh_(&mesh),
       unknowns_(std::move(unknowns)),
       active_cells_(mesh.cells(), 1),
       sets_(sets) {
+  state_->keep(layout_);
+  std::vector<Shared> shared;
   for (const Unknown& unknown : unknowns_) {
-    int b = 0;
-    const auto shared = [&](const Block& block) {
-      return block.space->order() == unknown.order && block.given == unknown.given;
-    };
-    while (b < static_cast<int>(blocks_.size()) && !shared(blocks_[b])) ++b;
-    if (b == static_cast<int>(blocks_.size())) {
-      blocks_.emplace_back();
-      blocks_[b].space = std::make_unique<Space>(mesh, unknown.order, sets);
-      blocks_[b].given = unknown.given;
-    }
-    places_.push_back({b, blocks_[b].size, unknown.components});
-    blocks_[b].size += unknown.components;
-    blocks_[b].components.push_back(unknown.components);
-    blocks_[b].time_order.insert(blocks_[b].time_order.end(), unknown.components, unknown.time_order);
+    const auto found = std::ranges::find_if(
+        shared, [&](const Shared& s) { return s.order == unknown.order && s.given == unknown.given; });
+    const auto b = static_cast<int>(found - shared.begin());
+    if (found == shared.end()) shared.push_back({unknown.order, unknown.given, {}, {}});
+    places_.push_back({b, static_cast<int>(shared[b].time_order.size()), unknown.components});
+    shared[b].components.push_back(unknown.components);
+    shared[b].time_order.insert(shared[b].time_order.end(), unknown.components, unknown.time_order);
   }
-  for (Block& block : blocks_) resize(block);
+  for (Shared& s : shared) {
+    blocks_.emplace_back(*state_, fmt::format("{}/{}order {}", name_, s.given ? "given, " : "", s.order),
+                         std::make_unique<Space>(mesh, s.order, sets), s.given, std::move(s.components),
+                         std::move(s.time_order));
+    resize(blocks_.back());
+  }
 }
 
 /// Gives every node of the space a place in the block's arrays; new ones start active, free and at zero.
-void Field::resize(Block& block) {
+void Field::resize(Block& block) const {
+  for (AnyState* state : state_->states())
+    if (state->on().are_nodes_of(*block.space)) state->resize();
   const std::size_t n = static_cast<std::size_t>(block.space->nodes()) * block.size;
-  block.now.resize(n);
-  block.old.resize(n);
   block.active.resize(block.space->nodes(), block.given ? 0 : 1);
-  block.known.resize(block.space->nodes(), 1);
   block.prescribed.resize(n, 0);
   block.prescribed_value.resize(n, 0.0);
+}
+
+void Field::keep_mean_rates() {
+  for (Block& block : blocks_) {
+    const auto add = [&](const char* level) -> StateArray<double>& {
+      return state_->add<double>(
+          {fmt::format("{}/{}order {}/{}", name_, block.given ? "given, " : "", block.space->order(), level),
+           nodes_of(*block.space), block.size, 2, WhenUncovered::extended});
+    };
+    StateArray<double>&mean = add("mean rate"), &second = add("mean second rate");
+    block.now.mean_rate = &mean.now();
+    block.now.mean_second_rate = &second.now();
+    block.old.mean_rate = &mean.old();
+    block.old.mean_second_rate = &second.old();
+  }
+}
+
+void Field::remember_cut_faces() {
+  const auto add = [&](const char* kind) -> StateArray<char>* {
+    StateDeclaration faces{fmt::format("{}/cut/{} faces", name_, kind), interior_faces_of(*mesh_)};
+    faces.lasts_a_step = true;
+    return &state_->add<char>(std::move(faces));
+  };
+  cut_faces_ = add("all");
+  wet_cut_faces_ = add("wet");
 }
 
 void Field::add_foreign(int block, const std::vector<Space::ForeignNode>& nodes) {

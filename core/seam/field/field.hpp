@@ -9,6 +9,7 @@
 
 #include "seam/field/part_layout.hpp"
 #include "seam/space/space.hpp"
+#include "seam/state/state_store.hpp"
 
 namespace seam {
 
@@ -27,40 +28,29 @@ struct Unknown {
   bool given = false;
 };
 
-/// Nodal values of a block at one instant: [node][component], and their rates as the time scheme defines
-/// them.
+/// Nodal values of a block at one instant, as its field's store of states keeps them: [node][component], and
+/// their rates as the time scheme defines them.
 struct NodalState {
-  std::vector<double> value, rate, second_rate;
-  /// Of value and rate over the step that led here; empty unless the time scheme carries them on.
-  std::vector<double> mean_rate, mean_second_rate;
-  void resize(std::size_t n) {
-    value.resize(n);
-    rate.resize(n);
-    second_rate.resize(n);
-  }
-  void keep_mean_rates() {
-    mean_rate.resize(value.size());
-    mean_second_rate.resize(value.size());
-  }
-  /// All that is kept, for what treats them alike.
-  [[nodiscard]] std::vector<std::vector<double>*> levels() {
-    if (mean_rate.empty()) return {&value, &rate, &second_rate};
-    return {&value, &rate, &second_rate, &mean_rate, &mean_second_rate};
-  }
+  std::vector<double>&value, &rate, &second_rate;
+  /// Of value and rate over the step that led here; null unless the time scheme carries them on.
+  std::vector<double>*mean_rate = nullptr, *mean_second_rate = nullptr;
 };
 
 /// All unknowns of a field that share a Lagrange space; given ones have a block of their own. Those of a node
 /// are contiguous. The states cover every node of the mesh, active or not, so that a changing set of active
 /// unknowns leaves them in place.
 struct Block {
+  /// @param name of its states @param time_order per component
+  Block(StateStore& store, const std::string& name, std::unique_ptr<Space> on, bool is_given,
+        std::vector<int> components_of_unknowns, std::vector<int> time_orders);
   std::unique_ptr<Space> space;
   int size = 0;        ///< unknowns per node
   bool given = false;  ///< nodal data (see Unknown): never active, known everywhere
   NodalState now;
   NodalState old;                        ///< at the start of the step
-  std::vector<char> active;              ///< per local node: carries unknowns of the system
-  std::vector<char> known;               ///< per local node: its states mean something; they are carried over
+  std::vector<char>& known;              ///< per local node: its states mean something; they are carried over
                                          ///< when a moving body leaves or enters its cells
+  std::vector<char> active;              ///< per local node: carries unknowns of the system
   std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
   std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
   std::vector<int> time_order;           ///< per component
@@ -70,6 +60,13 @@ struct Block {
   [[nodiscard]] bool knows_any(const int* nodes) const {
     return std::any_of(nodes, nodes + space->nodes_per_cell(), [&](int n) { return known[n] != 0; });
   }
+
+ private:
+  struct States {
+    StateArray<double>&value, &rate, &second_rate;
+    StateArray<char>& known;
+  };
+  Block(const States& states, std::unique_ptr<Space>&& on);
 };
 
 /// A field: unknowns on a mesh.
@@ -77,6 +74,8 @@ class Field {
  public:
   /// Collective. @param sets of unknowns that a node can have at most, see PartLayout
   Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets = 1);
+  Field(const Field&) = delete;
+  Field& operator=(const Field&) = delete;
 
   struct ComponentRange {
     int block;   ///< index into blocks()
@@ -114,6 +113,10 @@ class Field {
     regions_ = regions;
     region_of_cell_ = std::move(region_of_cell);
   }
+  /// All that goes back with the field when a step is rewound; others add to it what they keep about it.
+  [[nodiscard]] StateStore& state() const { return *state_; }
+  /// From now on states have mean rates. Before the first step.
+  void keep_mean_rates();
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 
@@ -155,9 +158,18 @@ class Field {
   /// of them the ghost penalty would jump.
   void keep_cut_faces(bool keep) { keeps_cut_faces_ = keep; }
   [[nodiscard]] bool keeps_cut_faces() const { return keeps_cut_faces_; }
+  /// From now on it is known which interior faces have counted as faces of a cut cell. Once, where bodies cut
+  /// the field.
+  void remember_cut_faces();
+  /// Those, or those of them that are wet in part, [interior face of the mesh]; null where nothing cuts it.
+  [[nodiscard]] std::vector<char>* cut_faces(bool wet) const {
+    StateArray<char>* faces = wet ? wet_cut_faces_ : cut_faces_;
+    return faces != nullptr ? &faces->now() : nullptr;
+  }
 
  private:
-  static void resize(Block& block);
+  void resize(Block& block) const;
+  std::unique_ptr<StateStore> state_ = std::make_unique<StateStore>();
   std::string name_;
   const Mesh* mesh_;
   std::vector<Unknown> unknowns_;
@@ -170,6 +182,7 @@ class Field {
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;
   bool keeps_cut_faces_ = false;
+  StateArray<char>*cut_faces_ = nullptr, *wet_cut_faces_ = nullptr;
   int sets_;
   std::shared_ptr<const PartLayout> layout_;
 };

@@ -18,82 +18,48 @@ namespace seam {
 namespace {
 
 // File: magic, format number, length of a JSON header, header, doubles, checksum of all that.
-constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '3'};
+constexpr char magic[8] = {'S', 'E', 'A', 'M', 'R', 'S', 'T', '4'};
 
-std::string block_name(const FieldEntry& entry, std::size_t b) {
-  return fmt::format("{}/order {}", entry.name, entry.field->blocks()[b].space->order());
+/// Those that outlast a step.
+std::vector<AnyState*> lasting_states(const Problem& problem) {
+  std::vector<AnyState*> states = problem.state().states();
+  std::erase_if(states, [](const AnyState* state) { return state->lasts_a_step(); });
+  return states;
 }
 
-nlohmann::json describe(const FieldEntry& entry, std::size_t b) {
-  Block& block = entry.field->blocks()[b];
-  return {{"name", block_name(entry, b)},
-          {"nodes", block.space->global_bound()},
-          {"size", block.size},
-          {"levels", block.now.levels().size()}};
+nlohmann::json describe(const AnyState& state) {
+  return {{"name", state.name()},
+          {"on", state.on().name()},
+          {"count", state.on().global_bound()},
+          {"size", state.size()}};
 }
 
-/// "320 nodes of water/order 1 with 3 numbers each, of 2 levels in time"
-std::string in_words(const nlohmann::json& block) {
-  const auto number = [&](const char* key) { return block.value(key, nlohmann::json()).dump(); };
-  return fmt::format("{} nodes of {} with {} numbers each, of {} levels in time", number("nodes"),
-                     number("name"), number("size"), number("levels"));
+/// "water/order 1/value with 3 numbers on each of 320 (node)"
+std::string in_words(const nlohmann::json& state) {
+  const auto text = [&](const char* key) { return state.value(key, std::string("nothing")); };
+  const auto number = [&](const char* key) { return state.value(key, nlohmann::json()).dump(); };
+  return fmt::format("'{}' with {} numbers on each of {} ({})", text("name"), number("size"), number("count"),
+                     text("on"));
 }
 
-/// Values by global number, on rank 0: [global entity][component].
-/// @param global number of each owned entity @param count of all of them
-std::vector<double> collect(const Communicator& communicator, const std::vector<int>& global, int count,
-                            int size, const std::vector<double>& values) {
+/// Present numbers by global number, on rank 0: [global number][component]. Collective.
+std::vector<double> collect(const AnyState& state) {
+  const Entities& on = state.on();
+  const Communicator& communicator = on.communicator();
   std::vector<std::vector<int>> entities(communicator.size());
   std::vector<std::vector<double>> data(communicator.size());
-  entities[0] = global;
-  data[0].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(global.size()) * size);
+  for (int e = 0; e < on.owned(); ++e) entities[0].push_back(on.global(e));
+  data[0] = state.numbers();
   const auto all_entities = communicator.exchange(entities);
   const auto all_data = communicator.exchange(data);
   if (communicator.rank() != 0) return {};
-  std::vector<double> result(static_cast<std::size_t>(count) * size, 0.0);
+  const int size = state.size();
+  std::vector<double> result(static_cast<std::size_t>(on.global_bound()) * size, 0.0);
   for (std::size_t r = 0; r < all_entities.size(); ++r)
     for (std::size_t k = 0; k < all_entities[r].size(); ++k)
       std::copy_n(all_data[r].begin() + static_cast<std::ptrdiff_t>(k) * size, size,
                   result.begin() + static_cast<std::ptrdiff_t>(all_entities[r][k]) * size);
   return result;
-}
-
-/// @param values [local node][component]
-std::vector<double> collect_nodes(const Space& space, int size, const std::vector<double>& values) {
-  std::vector<int> global;
-  for (int n = 0; n < space.owned_nodes(); ++n) global.push_back(space.global_node(n));
-  return collect(space.mesh().communicator(), global, space.global_bound(), size, values);
-}
-
-std::vector<double> numbers(const std::vector<char>& flags) { return {flags.begin(), flags.end()}; }
-
-/// What was decided about a field's cut (FieldCut::Memory), [cell of the whole mesh][decision, held].
-std::vector<double> collect_decisions(const FieldEntry& entry) {
-  const Mesh& mesh = *entry.mesh;
-  const FieldCut::Memory memory = entry.cut->memory();
-  std::vector<int> global;
-  std::vector<double> values;
-  for (int c = 0; c < mesh.owned_cells(); ++c) {
-    global.push_back(mesh.global_cell(c));
-    values.push_back(memory.decision.empty() ? 0 : memory.decision[c]);
-    values.push_back(memory.held.empty() ? 0 : memory.held[c]);
-  }
-  return collect(mesh.communicator(), global, static_cast<int>(mesh.owner_of_global_cell().size()), 2,
-                 values);
-}
-
-/// @param all as collect_decisions() gives it
-FieldCut::Memory decisions(const Mesh& mesh, const std::vector<double>& all) {
-  FieldCut::Memory memory;
-  bool holds = false;
-  for (int c = 0; c < mesh.cells(); ++c) {
-    const std::size_t at = 2 * static_cast<std::size_t>(mesh.global_cell(c));
-    memory.decision.push_back(static_cast<char>(all[at]));
-    memory.held.push_back(static_cast<char>(all[at + 1]));
-    holds = holds || memory.held.back() != 0;
-  }
-  if (!mesh.communicator().any(holds)) memory.held.clear();
-  return memory;
 }
 
 std::string read_all(const std::filesystem::path& file) {
@@ -134,7 +100,6 @@ RunState read_header(const std::filesystem::path& file, const nlohmann::json& he
     state.time = header.at("time");
     state.step = header.at("step");
     state.step_number = header.at("step_number");
-    state.largest = header.at("largest").get<std::vector<double>>();
     state.iterations = header.at("iterations").get<std::vector<int>>();
     state.rejected_steps = header.at("rejected_steps");
   } catch (const nlohmann::json::exception&) {
@@ -174,7 +139,6 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   header["time"] = state.time;
   header["step"] = state.step;
   header["step_number"] = state.step_number;
-  header["largest"] = state.largest;
   header["iterations"] = state.iterations;
   header["rejected_steps"] = state.rejected_steps;
   header["run"] = run;
@@ -189,16 +153,10 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
     header["series"].push_back({{"name", name}, {"size", values.size()}});
     append(values);
   }
-  for (const FieldEntry& entry : problem.fields())
-    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
-      Block& block = entry.field->blocks()[b];
-      header["blocks"].push_back(describe(entry, b));
-      for (const std::vector<double>* level : block.now.levels())
-        append(collect_nodes(*block.space, block.size, *level));
-      append(collect_nodes(*block.space, 1, numbers(block.known)));
-    }
-  for (const FieldEntry& entry : problem.fields())
-    if (entry.cut) append(collect_decisions(entry));
+  for (const AnyState* of : lasting_states(problem)) {
+    header["states"].push_back(describe(*of));
+    append(collect(*of));
+  }
   all_or_none<FileError>(problem.communicator(), [&] {
     if (problem.communicator().rank() != 0) return;
     // Aligns the doubles that follow.
@@ -227,41 +185,24 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
   };
   RunState state = read_header(file, header);
   const auto all_series = read_series(file, header);
-  const nlohmann::json blocks = header.value("blocks", nlohmann::json::array());
+  const nlohmann::json states = header.value("states", nlohmann::json::array());
   state.results.time = take(all_series.back().second);
   for (std::size_t s = 0; s + 1 < all_series.size(); ++s)
     state.results.series[all_series[s].first] = take(all_series[s].second);
-  for (FieldEntry& entry : problem.fields())
-    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b, ++which) {
-      Block& block = entry.field->blocks()[b];
-      const nlohmann::json expected = describe(entry, b);
-      if (!blocks.is_array() || which >= blocks.size() || blocks[which] != expected)
-        throw Error(fmt::format(
-            "the restart point '{}' does not fit this scene: found {}, expected {}; its mesh or the "
-            "order of its unknowns has changed, with which no run can go on",
-            file.string(), blocks.is_array() && which < blocks.size() ? in_words(blocks[which]) : "nothing",
-            in_words(expected)));
-      const std::size_t size = static_cast<std::size_t>(block.space->global_bound()) * block.size;
-      const std::vector<std::vector<double>*> levels = block.now.levels();
-      for (std::vector<double>* level : levels) {
-        const std::vector<double> all = take(size);
-        for (int n = 0; n < block.space->nodes(); ++n)
-          std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(block.space->global_node(n)) * block.size,
-                      block.size, level->begin() + static_cast<std::ptrdiff_t>(n) * block.size);
-      }
-      block.old = block.now;
-      const std::vector<double> known = take(static_cast<std::size_t>(block.space->global_bound()));
-      for (int n = 0; n < block.space->nodes(); ++n)
-        block.known[n] = static_cast<char>(known[block.space->global_node(n)]);
-      entry.field->set_layout(nullptr);
-    }
-  for (FieldEntry& entry : problem.fields())
-    if (entry.cut)
-      entry.cut->recall(
-          decisions(*entry.mesh,
-                    take(2 * static_cast<std::size_t>(entry.mesh->owner_of_global_cell().size()))),
-          state.time);
+  for (AnyState* of : lasting_states(problem)) {
+    const nlohmann::json expected = describe(*of);
+    const bool is_there = states.is_array() && which < states.size();
+    if (!is_there || states[which] != expected)
+      throw Error(
+          fmt::format("the restart point '{}' does not fit this scene: found {}, expected {}; its mesh or "
+                      "the order of its "
+                      "unknowns has changed, with which no run can go on",
+                      file.string(), is_there ? in_words(states[which]) : "nothing", in_words(expected)));
+    of->take(take(static_cast<std::size_t>(of->on().global_bound()) * of->size()));
+    ++which;
+  }
   if (at != count) throw damaged_file(file);
+  problem.state().resumed(state.time);
   return state;
 }
 

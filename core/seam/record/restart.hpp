@@ -16,7 +16,6 @@ struct RunState {
   double step = 0;  ///< next step to try, s
   long step_number = 0;
   Results results;              ///< recorded so far
-  std::vector<double> largest;  ///< sizes of states so far, see time_error()
   std::vector<int> iterations;  ///< of Newton's method in each step that was taken
   long rejected_steps = 0;      ///< steps that failed and were taken again, shorter
 };

@@ -49,7 +49,6 @@ void Session::prepare() {
 
 void Session::continue_from(const std::filesystem::path& restart_point) {
   state_ = read_restart(restart_point, problem());
-  step_->set_largest(state_.largest);
   at_ = time_point(state_.time, 0, stepper_.theta());
   problem().update_spaces(at_);
 }
@@ -136,7 +135,6 @@ bool Session::step(double until) {
   state_.time = until;
   ++state_.step_number;
   state_.iterations.push_back(reports_.back().iterations());
-  state_.largest = step_->largest();
   return true;
 }
 

@@ -68,7 +68,6 @@ double time_error(Problem& problem, double step, std::vector<double>& largest) {
     // Each unknown by itself: they have units of their own.
     for (int b = 0; b < static_cast<int>(entry.field->blocks().size()); ++b)
       for (int first = 0; const int components : entry.field->blocks()[b].components) {
-        if (largest.size() == number) largest.push_back(0);
         const double error = time_error(*entry.field, b, first, components, step, largest[number++]);
         if (error > worst && matters(problem.assembler(), entry.field->blocks()[b], first, components))
           worst = error;

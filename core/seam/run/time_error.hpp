@@ -14,7 +14,7 @@ namespace seam {
 /// what is left of a motion when it comes to rest is noise, and so is an unknown that has no part in the
 /// equations. Collective.
 /// @param step length of the step that has led to the states, s
-/// @param largest sizes of the states so far, one for each unknown of each field; kept here, at first empty
+/// @param largest sizes of the states so far, one for each unknown of each field; kept here, at first 0
 double time_error(Problem& problem, double step, std::vector<double>& largest);
 
 }  // namespace seam

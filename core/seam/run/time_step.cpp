@@ -6,10 +6,24 @@
 #include "seam/run/time_error.hpp"
 
 namespace seam {
+namespace {
+
+StateArray<double>& add_largest(Problem& problem) {
+  std::size_t unknowns = 0;
+  for (const FieldEntry& entry : problem.fields()) unknowns += entry.field->unknowns().size();
+  return problem.state().add<double>(
+      {"largest of each unknown", the_run(problem.communicator()), static_cast<int>(unknowns)});
+}
+
+}  // namespace
 
 TimeStep::TimeStep(Problem& problem, LinearSolver& solver, const NewtonOptions& options,
                    const Stepper& stepper)
-    : problem_(problem), solver_(solver), newton_(problem, solver, options), stepper_(stepper) {
+    : problem_(problem),
+      solver_(solver),
+      newton_(problem, solver, options),
+      stepper_(stepper),
+      largest_(add_largest(problem)) {
   if (stepper.two_steps()) problem.keep_mean_rates();
   fresh_rates_ = !stepper.is_static() && problem.needs_fresh_rates(stepper.theta());
 }
@@ -30,8 +44,7 @@ TimePoint TimeStep::point_of(double from, double until, double previous) const {
 }
 
 void TimeStep::begin(double from, double until, double previous) {
-  before_ = problem_.snapshot(from);
-  largest_before_ = largest_;
+  before_ = problem_.state().snapshot(from);
   error_ = 0;
   at_ = point_of(from, until, previous);
   if (fresh_rates_) newton_.solve_initial_rates(from);
@@ -43,15 +56,14 @@ bool TimeStep::iterate() {
   if (newton_.iterate()) return true;
   if (newton_.report().converged) problem_.check_levels();
   if (newton_.report().converged && stepper_.adaptive() && !stepper_.is_static())
-    error_ = time_error(problem_, at_.step, largest_);
+    error_ = time_error(problem_, at_.step, largest_.now());
   return false;
 }
 
 void TimeStep::accept() { before_ = {}; }
 
 void TimeStep::rewind() {
-  problem_.restore(before_);
-  largest_ = std::move(largest_before_);
+  problem_.state().restore(before_);
   solver_.forget();
 }
 

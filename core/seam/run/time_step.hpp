@@ -36,10 +36,6 @@ class TimeStep {
   /// Everything is as it was before begin().
   void rewind();
 
-  /// Sizes of the states so far that errors are relative to, see time_error(): a restart has them.
-  [[nodiscard]] const std::vector<double>& largest() const { return largest_; }
-  void set_largest(std::vector<double> largest) { largest_ = std::move(largest); }
-
  private:
   [[nodiscard]] TimePoint point_of(double from, double until, double previous) const;
   Problem& problem_;
@@ -49,10 +45,8 @@ class TimeStep {
   bool fresh_rates_ = false;  ///< rates follow from the balance at the start of each step
   TimePoint at_;
   double error_ = 0;
-  std::vector<double> largest_;
-  // At the start of the step.
-  Problem::Snapshot before_;
-  std::vector<double> largest_before_;
+  StateArray<double>& largest_;  ///< sizes of the states so far that errors are relative to, see time_error()
+  StateStore::Snapshot before_;
 };
 
 }  // namespace seam

@@ -221,7 +221,7 @@ bool Newton::finish() {
 bool Newton::take(NewtonIteration& entry) {
   constexpr double blow_up = 1e4;
   constexpr double least = 1e-3;
-  const Problem::Snapshot before = problem_.iterate(at_);
+  const StateStore::Snapshot before = problem_.iterate(at_);
   not_finite_.clear();
   for (entry.damping = 1; entry.damping > least; entry.damping /= 2) {
     problem_.assembler().add_increment(increment_, entry.damping);
@@ -236,7 +236,7 @@ bool Newton::take(NewtonIteration& entry) {
         not_finite_ = ": there" + problem_.assembler().describe_not_finite(at_);
     }
     if (!options_.damping) return false;
-    problem_.restore(before);
+    problem_.state().restore(before);
     if (!frozen_) problem_.update_spaces(at_);  // and with them the numbering that the increment has
   }
   return false;

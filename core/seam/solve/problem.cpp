@@ -49,15 +49,15 @@ std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& bu
 }
 
 /// Rates of a level of the unknowns that have one of this order.
-/// @param mean of the step, where it is kept
+/// @param mean of the step, null where it is not kept
 void update_rate(const TimePoint& at, const Block& block, int order, const std::vector<double>& now,
                  const std::vector<double>& old, const std::vector<double>& carried,
-                 std::vector<double>& rate, std::vector<double>& mean) {
+                 std::vector<double>& rate, std::vector<double>* mean) {
   const double keep = (1 - at.theta) / at.theta;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (block.time_order[i % block.size] < order) continue;
     rate[i] = at.rate_factor * (now[i] - old[i]) - keep * carried[i];
-    if (!mean.empty()) mean[i] = (now[i] - old[i]) / at.step;
+    if (mean != nullptr) (*mean)[i] = (now[i] - old[i]) / at.step;
   }
 }
 
@@ -108,6 +108,7 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
   if (entry.physics->support() == Support::point) entry.mesh = point_mesh(*mesh, builder);
   entry.field = std::make_unique<Field>(name, *entry.mesh, declared_unknowns(entry, mesh->dimension()),
                                         entry.physics->separates_parts() ? most_sets : 1);
+  state_.include(entry.field->state());
   entry.physics->build(builder);
   builder.finish();
   return *entry.field;
@@ -249,11 +250,11 @@ void Problem::initialise(double time, bool impose_prescribed) {
     for (Block& block : entry.field->blocks()) {
       for (std::size_t i = 0; i < block.prescribed.size(); ++i)
         if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
-      block.old = block.now;
       // The initial values are those at the node itself, which lies in the wet part of its set 0.
       for (int n = 0; n < block.space->nodes(); ++n) block.known[n] = block.space->set_of(n) == 0 ? 1 : 0;
       entry.field->set_layout(nullptr);
     }
+  state_.advance();
 }
 
 void Problem::add_initial_rates(const std::vector<double>& increment) {
@@ -269,8 +270,8 @@ void Problem::add_initial_rates(const std::vector<double>& increment) {
         }
       for (auto* level : {&block.now.value, &block.now.rate, &block.now.second_rate})
         block.space->halo().update(*level, block.size);
-      block.old = block.now;
     }
+  state_.advance();
 }
 
 void Problem::set_given(FieldEntry& entry, double time) {
@@ -309,9 +310,9 @@ void Problem::begin_step(const TimePoint& at, double from) {
   for (auto& [domain, terms] : domains_) domain->forget_constants(true);
   for (FieldEntry& entry : fields_)
     if (entry.cut) entry.cut->begin_step();
+  state_.advance();
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
-      block.old = block.now;
       if (at.step == 0) continue;
       // A body in free motion goes on as it moves; whatever relaxes starts from where it is.
       for (std::size_t i = 0; i < block.now.value.size(); ++i)
@@ -326,9 +327,9 @@ void Problem::update_rates(const TimePoint& at) {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       NodalState &now = block.now, &old = block.old;
-      const auto& carried = old.mean_rate.empty() ? old.rate : old.mean_rate;
+      const auto& carried = old.mean_rate == nullptr ? old.rate : *old.mean_rate;
       update_rate(at, block, 1, now.value, old.value, carried, now.rate, now.mean_rate);
-      const auto& second_carried = old.mean_second_rate.empty() ? old.second_rate : old.mean_second_rate;
+      const auto& second_carried = old.mean_second_rate == nullptr ? old.second_rate : *old.mean_second_rate;
       update_rate(at, block, 2, now.rate, old.rate, second_carried, now.second_rate, now.mean_second_rate);
     }
 }
@@ -369,11 +370,7 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
 }
 
 void Problem::keep_mean_rates() {
-  for (FieldEntry& entry : fields_)
-    for (Block& block : entry.field->blocks()) {
-      block.now.keep_mean_rates();
-      block.old.keep_mean_rates();
-    }
+  for (FieldEntry& entry : fields_) entry.field->keep_mean_rates();
 }
 
 void Problem::hold_spaces() {
@@ -381,36 +378,10 @@ void Problem::hold_spaces() {
     if (entry.cut) entry.cut->hold();
 }
 
-Problem::Snapshot Problem::snapshot(double time) const { return copy(time, true); }
-
-Problem::Snapshot Problem::iterate(const TimePoint& at) const { return copy(at.time, false); }
-
-Problem::Snapshot Problem::copy(double time, bool with_old) const {
-  Snapshot states;
-  states.time = time;
-  for (const FieldEntry& entry : fields_) {
-    states.cuts.push_back(entry.cut ? entry.cut->memory() : FieldCut::Memory{});
-    for (const Block& block : entry.field->blocks())
-      states.blocks.push_back({block.now, block.known,
-                               with_old || entry.field->sets() > 1 ? block.old : NodalState{},
-                               entry.field->layout()});
-  }
-  return states;
-}
-
-void Problem::restore(const Snapshot& states) {
-  std::size_t f = 0, s = 0;
-  for (FieldEntry& entry : fields_) {
-    if (entry.cut) entry.cut->recall(states.cuts[f], states.time);
-    ++f;
-    for (Block& block : entry.field->blocks()) {
-      const BlockSnapshot& state = states.blocks[s++];
-      block.now = state.now;
-      block.known = state.known;
-      if (!state.old.value.empty()) block.old = state.old;
-      entry.field->set_layout(state.layout);
-    }
-  }
+StateStore::Snapshot Problem::iterate(const TimePoint& at) const {
+  const bool reorders =
+      std::ranges::any_of(fields_, [](const FieldEntry& entry) { return entry.field->sets() > 1; });
+  return state_.snapshot(at.time, reorders);
 }
 
 double two_step_theta(double step, double previous) {

@@ -189,25 +189,13 @@ class Problem {
   /// From now to the end of the step unknowns of fields that bodies cut may come but not go.
   void hold_spaces();
 
-  /// All states of all fields and what was decided about their cuts.
-  struct BlockSnapshot {
-    NodalState now;
-    std::vector<char> known;
-    NodalState old;  ///< empty where it is not kept
-    std::shared_ptr<const PartLayout> layout;
-  };
-  struct Snapshot {
-    std::vector<BlockSnapshot> blocks;
-    std::vector<FieldCut::Memory> cuts;  ///< one a field; empty ones where nothing cuts it
-    double time = 0;
-  };
-  /// What a failed step is rewound to, to the bit.
-  /// @param time of the states
-  [[nodiscard]] Snapshot snapshot(double time) const;
+  /// All that a step depends on and leaves behind: what a failed one is rewound to, to the bit. Those of the
+  /// fields are in it.
+  [[nodiscard]] StateStore& state() { return state_; }
+  [[nodiscard]] const StateStore& state() const { return state_; }
   /// Of the present iteration within a step: without the states at the step's start, but where the sets of
   /// nodes may change, which reorders states.
-  [[nodiscard]] Snapshot iterate(const TimePoint& at) const;
-  void restore(const Snapshot& states);
+  [[nodiscard]] StateStore::Snapshot iterate(const TimePoint& at) const;
 
  private:
   void set_prescribed(double time);
@@ -215,8 +203,8 @@ class Problem {
   SpaceChange update_cuts(const TimePoint& at);
   void add_swept_volumes();
   void carry_rates();
-  [[nodiscard]] Snapshot copy(double time, bool with_old) const;
   Communicator communicator_;
+  StateStore state_;
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
   std::map<std::string, std::vector<InterfacePart>> interfaces_;
