@@ -43,10 +43,11 @@ class InteriorPenaltyStabilisation final : public Stabilisation {
 /// Residual-based in cells that no body cuts; cut cells get the interior penalty, on all of their faces.
 class ResidualBasedStabilisation final : public Stabilisation {
  public:
+  ResidualBasedStabilisation(double momentum, double divergence, const JumpConstants& constants)
+      : momentum_(momentum), divergence_(divergence), constants_(constants) {}
   explicit ResidualBasedStabilisation(const Parameters& parameters)
-      : momentum_(parameters.number("momentum")),
-        divergence_(parameters.number("volume")),
-        constants_(jump_constants(parameters)) {}
+      : ResidualBasedStabilisation(parameters.number("momentum"), parameters.number("volume"),
+                                   jump_constants(parameters)) {}
   static Schema schema() {
     Schema s("SUPG, PSPG and grad-div in uncut cells, interior penalty around cut ones; for order 1.");
     s.number("momentum", "Factor of tau_M (SUPG, PSPG)").otherwise("1").above(0);
@@ -72,6 +73,12 @@ class ResidualBasedStabilisation final : public Stabilisation {
   JumpConstants constants_;
 };
 
+/// `residual` with these numbers, whatever its defaults are.
+std::unique_ptr<Stabilisation> stabilisation_of_the_thesis() {
+  constexpr double convective = 0.05, pressure = 0.05, divergence = 5e-5;
+  return std::make_unique<ResidualBasedStabilisation>(1, 1, JumpConstants{convective, pressure, divergence});
+}
+
 }  // namespace
 
 void declare_stabilisations(Registry& registry) {
@@ -81,6 +88,12 @@ void declare_stabilisations(Registry& registry) {
   registry.add<Stabilisation>(
       "fluid_stabilisation", "residual", ResidualBasedStabilisation::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<ResidualBasedStabilisation>(p); });
+  registry.add<Stabilisation>(
+      "fluid_stabilisation", "thesis",
+      Schema("The set of numbers of the thesis, which stays when defaults change: `residual` with momentum "
+             "1, volume "
+             "1, pressure 0.05, convective 0.05, divergence 5e-5."),
+      [](const Parameters&, const Registry&) { return stabilisation_of_the_thesis(); });
 }
 
 }  // namespace seam::fluid

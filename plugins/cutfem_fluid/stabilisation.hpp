@@ -23,7 +23,7 @@ class Stabilisation {
                    const std::vector<Expression>& body_force) const = 0;
 };
 
-/// Registers `cip` and `residual`.
+/// Registers `cip`, `residual` and `thesis`.
 void declare_stabilisations(Registry& registry);
 
 }  // namespace seam::fluid

@@ -28,6 +28,17 @@ void passes(const std::string& name, Overrides overrides) {
 
 }  // namespace
 
+TEST_CASE("the stabilisation of the thesis is a set of numbers that stays whatever defaults become") {
+  const auto results = [](const std::string& stabilisation) {
+    FlowRun flow(SEAM_SOURCE_DIR "/configs/fluid/shear_2d.yaml",
+                 {{"fields.water.stabilisation", stabilisation}, {"parameters.n", "15"}});
+    return flow.run().series;
+  };
+  CHECK(results("thesis") ==
+        results("{type: residual, momentum: 1, volume: 1, pressure: 0.05, convective: 0.05, "
+                "divergence: 5e-5}"));
+}
+
 TEST_CASE("linear shear past a moving block is exact, on any position of the cut") {
   const std::string cell = GENERATE("quadrilateral", "triangle");
   const std::string stabilisation = GENERATE("cip", "residual");

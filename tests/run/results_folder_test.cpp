@@ -261,14 +261,19 @@ TEST_CASE("a restart point is refused whose checksum is right and whose header s
   const std::string damaged = "00000005.restart' is damaged or incomplete";
   for (const double step : {0.0, -1.0}) check_refused(with("step", step), "expected a step above 0");
   check_refused(with("step_number", -1), "a number from 0 on");
-  for (const char* key :
-       {"time", "step", "step_number", "rejected_steps", "times", "largest", "iterations", "series"}) {
+  for (const char* key : {"time", "step", "step_number", "rejected_steps", "times", "iterations", "series"}) {
     check_refused(with(key, "a"), damaged);
     check_refused(with(key, nullptr), damaged);
   }
   for (const int times : {5, -1, 7, 1000000}) check_refused(with("times", times), damaged);
   check_refused(with("series", {{{"name", "a"}, {"size", 1}}}), damaged);
-  check_refused(with("blocks", 1), "does not fit this scene");
+  for (const nlohmann::json& states : {nlohmann::json(1), nlohmann::json::array(), nlohmann::json({1, 2})})
+    check_refused(with("states", states), "does not fit this scene");
+  // Of a version that wrote other things.
+  std::string older = whole;
+  older[7] = '3';
+  std::ofstream(point, std::ios::binary) << older;
+  check_refused(run(folder, "r", "--resume"), "was written by another version of Seam: found format 3");
 }
 
 TEST_CASE("a record of a run that is JSON but none of a run is refused") {

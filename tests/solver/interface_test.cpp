@@ -7,6 +7,7 @@
 #include "diffusion.hpp"
 #include "seam/interface/matching.hpp"
 #include "seam/linear/krylov_solver.hpp"
+#include "seam/record/error_norms.hpp"
 
 namespace {
 
@@ -178,6 +179,28 @@ TEST_CASE("the trace size on a matching interface is the volume of the first cel
     CHECK(element.cell_size[0] ==
           Approx(std::hypot(0.2, cell == CellType::hexahedron ? std::sqrt(2) / 6 : 1.0 / 6)));
   }
+}
+
+TEST_CASE("errors along an interface are those on the parts of it that bound the field", "[ranks]") {
+  Problem problem{Communicator()};
+  PlainSetup setup({&problem.add_field("left", half(CellType::quadrilateral, 0, 1, 5),
+                                       std::make_unique<Conductor>(1, "x_min", 0.0)),
+                    &problem.add_field("right", half(CellType::quadrilateral, 1, 2, 3),
+                                       std::make_unique<Conductor>(1, "x_max", 1.0))},
+                   2);
+  Parameters p;
+  p.set("fields", {std::vector<std::string>{"left", "right"}, {}, {}, true});
+  p.set("boundaries", {std::vector<std::string>{"x_max", "x_min"}, {}, {}, true});
+  std::vector<InterfacePart> parts = MatchingInterface(p).build(setup);
+  const auto error = [&] {
+    return interface_error_norms(parts, problem.field("left"), "c", {Expression(3.0)}, {}, 0).l2;
+  };
+  // All unknowns are 0, and the interface has length 1.
+  CHECK(error() == Approx(3));
+  parts.push_back(parts.front());
+  CHECK(error() == Approx(3 * std::sqrt(2)));
+  parts.back().bounds_field = false;
+  CHECK(error() == Approx(3));
 }
 
 TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // When Newton's method has converged, and when it goes only a part of its way.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "diffusion.hpp"
@@ -26,6 +27,26 @@ struct Power {
     T product(factor);
     for (int k = 0; k < power; ++k) product = product * value;
     r.value(c{}) += product;
+  }
+};
+
+/// (dc, ln c + 1 + x)
+struct Logarithm {
+  using Reads = Slots<Value<c>>;
+  using Tests = Slots<Value<c>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    using std::log;
+    r.value(c{}) += log(s.value(c{})) + 1.0 + x.position[0];
+  }
+};
+
+class OnlyPositive final : public Physics {
+ public:
+  [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {{"c", 1, 1, 0, ""}}; }
+  void build(FieldSetup& setup) const override {
+    setup.add_cell_term(make_term(Logarithm{}), {"c"});
+    setup.set_initial("c", 0, Expression(3.0));
   }
 };
 
@@ -104,4 +125,37 @@ TEST_CASE("what has inertia begins with the acceleration that its balance says")
     CHECK(block.now.second_rate[i] == Approx(2).epsilon(1e-12));
     CHECK(block.old.second_rate[i] == block.now.second_rate[i]);
   }
+}
+
+TEST_CASE("spaces go back with a state that was no admissible one") {
+  std::vector<std::vector<double>> residuals;
+  for (const bool follows : {false, true}) {
+    Problem problem{Communicator()};
+    problem.add_field("body",
+                      std::make_shared<Mesh>("box", test::box(CellType::quadrilateral, 4), Communicator()),
+                      std::make_unique<OnlyPositive>());
+    FieldEntry& entry = problem.fields()[0];
+    bool was_negative = false;
+    problem.add_space_update([&](const TimePoint&) {
+      // Where the logarithm is none, half of the cells go.
+      const std::vector<double>& values = entry.field->blocks()[0].now.value;
+      const bool is_negative = follows && *std::min_element(values.begin(), values.end()) <= 0;
+      if (is_negative == was_negative) return false;
+      was_negative = is_negative;
+      std::vector<char> active(entry.mesh->cells(), 1);
+      if (is_negative) std::fill(active.begin(), active.begin() + entry.mesh->cells() / 2, 0);
+      problem.occupy(entry, active);
+      return true;
+    });
+    problem.finish();
+    problem.initialise(0);
+    const NewtonReport report = solve(problem, {1e-11, 1e-7, 30, true});
+    REQUIRE(report.converged);
+    CHECK(report.history[1].damping < 1);
+    residuals.emplace_back();
+    for (const NewtonIteration& iteration : report.history) residuals.back().push_back(iteration.residual);
+  }
+  REQUIRE(residuals[0].size() == residuals[1].size());
+  for (std::size_t k = 0; k < residuals[0].size(); ++k)
+    CHECK(residuals[1][k] == Approx(residuals[0][k]).epsilon(1e-9).margin(1e-13));
 }

@@ -36,9 +36,9 @@ Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicato
 void Assembler::add(const std::shared_ptr<const IntegrationDomain>& domain,
                     const std::vector<BoundTerm>& terms, ElementEvaluator::Role role) {
   Group group{domain, std::make_unique<ElementEvaluator>(*domain, terms, role), {}};
-  for (const auto& part : group.evaluator->side_blocks())
+  for (const auto& side_block : group.evaluator->side_blocks())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-      if (blocks_[b].block == part.states) group.block_of_part.push_back(static_cast<int>(b));
+      if (blocks_[b].block == side_block.states) group.block_of_part.push_back(static_cast<int>(b));
   groups_.push_back(std::move(group));
 }
 
@@ -219,9 +219,9 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
     element.compute(e, at, with_tangent);
     element_nodes_.clear();
     for (std::size_t p = 0; p < element.side_blocks().size(); ++p) {
-      const auto& part = element.side_blocks()[p];
-      const int* nodes = element.element().sides[part.side].nodes[part.block];
-      for (int a = 0; a < part.nodes; ++a)
+      const auto& side_block = element.side_blocks()[p];
+      const int* nodes = element.element().sides[side_block.side].nodes[side_block.block];
+      for (int a = 0; a < side_block.nodes; ++a)
         element_nodes_.push_back(blocks_[group.block_of_part[p]].node_index[nodes[a]]);
     }
     scatter_vector(element);
@@ -231,13 +231,13 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
 
 void Assembler::scatter_vector(const ElementEvaluator& element) {
   const int* node = element_nodes_.data();
-  for (const auto& part : element.side_blocks())
-    for (int a = 0; a < part.nodes; ++a, ++node) {
+  for (const auto& side_block : element.side_blocks())
+    for (int a = 0; a < side_block.nodes; ++a, ++node) {
       if (*node < 0) continue;
       const int first = graph_.node(*node).first;
-      for (int c = 0; c < part.components; ++c) {
-        local_residual_[first + c] += element.residual()[part.offset + c * part.stride + a];
-        local_magnitude_[first + c] += element.magnitude()[part.offset + c * part.stride + a];
+      for (int c = 0; c < side_block.components; ++c) {
+        local_residual_[first + c] += element.residual()[side_block.offset + c * side_block.stride + a];
+        local_magnitude_[first + c] += element.magnitude()[side_block.offset + c * side_block.stride + a];
       }
     }
 }

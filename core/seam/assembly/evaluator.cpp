@@ -75,15 +75,15 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
     for (std::size_t k = 0; k < s.components.size(); ++k) {
       const Operand& operand = bound.operands[k];
       const Field::ComponentRange place = domain.fields().at(operand.side)->place(operand.unknown);
-      const auto part = std::find_if(side_blocks_.begin(), side_blocks_.end(), [&](const SideBlock& p) {
+      const auto side_block = std::find_if(side_blocks_.begin(), side_blocks_.end(), [&](const SideBlock& p) {
         return p.side == operand.side && p.block == place.block;
       });
       compiled.operands.push_back(
-          {static_cast<int>(part - side_blocks_.begin()), place.offset, place.components});
+          {static_cast<int>(side_block - side_blocks_.begin()), place.offset, place.components});
     }
     for (const auto* slots : {&s.inputs, &s.outputs})
       for (const Slot& slot : *slots) {
-        Operators& operators = operators_[compiled.operands[slot.operand].part];
+        Operators& operators = operators_[compiled.operands[slot.operand].side_block];
         operators.needs_gradient |= slot.shape == Shape::gradient || slot.shape == Shape::normal_derivative;
         operators.needs_normal |= slot.shape == Shape::normal_derivative;
         operators.needs_second_normal |= slot.shape == Shape::second_normal_derivative;
@@ -112,9 +112,9 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
         terms.empty() ? Location() : terms.front().where,
         fmt::format("the points of {}{} move with {} facets; {} at most are possible", domain.description(),
                     plugin_of(domain), movers_.size(), most_moves / (dim_ * dim_)));
-  for (SideBlock& part : side_blocks_) {
-    part.offset = size_;
-    size_ += part.stride * part.components;
+  for (SideBlock& side_block : side_blocks_) {
+    side_block.offset = size_;
+    size_ += side_block.stride * side_block.components;
   }
 }
 
@@ -162,14 +162,14 @@ void ElementEvaluator::compute(int index, const TimePoint& at, bool with_tangent
 
 void ElementEvaluator::add_change_to_magnitude() {
   change_.assign(size_, 0.0);
-  for (const SideBlock& part : side_blocks_) {
-    const int* nodes = element_.sides[part.side].nodes[part.block];
-    for (int a = 0; a < part.nodes; ++a)
-      for (int c = 0; c < part.components; ++c) {
-        const std::size_t i = static_cast<std::size_t>(nodes[a]) * part.components + c;
-        change_[part.offset + c * part.stride + a] =
-            std::abs(part.states->now.value[i] - part.states->old.value[i]) +
-            steady_part * std::abs(part.states->now.value[i]);
+  for (const SideBlock& side_block : side_blocks_) {
+    const int* nodes = element_.sides[side_block.side].nodes[side_block.block];
+    for (int a = 0; a < side_block.nodes; ++a)
+      for (int c = 0; c < side_block.components; ++c) {
+        const std::size_t i = static_cast<std::size_t>(nodes[a]) * side_block.components + c;
+        change_[side_block.offset + c * side_block.stride + a] =
+            std::abs(side_block.states->now.value[i] - side_block.states->old.value[i]) +
+            steady_part * std::abs(side_block.states->now.value[i]);
       }
   }
   add_absolute_product(size_, matrix_.data(), change_.data(), magnitude_.data());
@@ -190,9 +190,9 @@ const std::vector<double>& ElementEvaluator::compute_values(int index, const Tim
 void ElementEvaluator::compute_operators() {
   const int points = element_.points;
   for (std::size_t p = 0; p < side_blocks_.size(); ++p) {
-    const SideBlock& part = side_blocks_[p];
-    const ElementSide& side = element_.sides[part.side];
-    const ShapeTable& table = *side.table[part.states->space->order() - 1];
+    const SideBlock& side_block = side_blocks_[p];
+    const ElementSide& side = element_.sides[side_block.side];
+    const ShapeTable& table = *side.table[side_block.states->space->order() - 1];
     Operators& operators = operators_[p];
     operators.value = table.value.data();
     if (operators.needs_gradient) {
@@ -246,15 +246,16 @@ void ElementEvaluator::gather() {
   for (int level = 0; level < 5; ++level) {
     if (!level_used_[level]) continue;
     local_[level].assign(size_, 0.0);
-    for (const SideBlock& part : side_blocks_) {
-      const NodalState& now = part.states->now;
-      const NodalState& old = part.states->old;
+    for (const SideBlock& side_block : side_blocks_) {
+      const NodalState& now = side_block.states->now;
+      const NodalState& old = side_block.states->old;
       const std::vector<double>* from[5] = {&now.value, &now.rate, &now.second_rate, &old.value, &old.rate};
-      const int* nodes = element_.sides[part.side].nodes[part.block];
-      double* to = &local_[level][part.offset];
-      for (int a = 0; a < part.nodes; ++a)
-        for (int c = 0; c < part.components; ++c)
-          to[c * part.stride + a] = (*from[level])[static_cast<std::size_t>(nodes[a]) * part.components + c];
+      const int* nodes = element_.sides[side_block.side].nodes[side_block.block];
+      double* to = &local_[level][side_block.offset];
+      for (int a = 0; a < side_block.nodes; ++a)
+        for (int c = 0; c < side_block.components; ++c)
+          to[c * side_block.stride + a] =
+              (*from[level])[static_cast<std::size_t>(nodes[a]) * side_block.components + c];
     }
   }
 }
@@ -264,10 +265,10 @@ void ElementEvaluator::compute_inputs(const Compiled& term) {
   int at = 0;
   for (const Slot& slot : term.signature->inputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const SideBlock& part = side_blocks_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.stride;
-    const double* shape = operators_[operand.part].of(slot.shape);
-    const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
+    const SideBlock& side_block = side_blocks_[operand.side_block];
+    const int r = rows(slot.shape, dim_), n = side_block.stride;
+    const double* shape = operators_[operand.side_block].of(slot.shape);
+    const double* values = &local_[static_cast<int>(slot.level)][side_block.offset + operand.offset * n];
     for (int q = 0; q < element_.points; ++q)
       for (int c = 0; c < operand.components; ++c)
         for (int i = 0; i < r; ++i) {
@@ -284,7 +285,7 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   double factors[most_operands][3];
   for (std::size_t k = 0; k < term.operands.size(); ++k) {
     const BoundOperand& operand = term.operands[k];
-    const int order = side_blocks_[operand.part].states->time_order[operand.offset];
+    const int order = side_blocks_[operand.side_block].states->time_order[operand.offset];
     factors[k][0] = at.initial_rates && order > 0 ? 0.0 : 1.0;
     factors[k][1] = at.initial_rates ? (order == 1 ? 1.0 : 0.0) : at.rate_factor;
     factors[k][2] = at.initial_rates ? (order == 2 ? 1.0 : 0.0) : at.second_rate_factor;
@@ -334,12 +335,12 @@ void ElementEvaluator::add_residual(const Compiled& term) {
   int at = 0;
   for (const Slot& slot : term.signature->outputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const SideBlock& part = side_blocks_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.stride;
-    const double* shape = operators_[operand.part].of(slot.shape);
+    const SideBlock& side_block = side_blocks_[operand.side_block];
+    const int r = rows(slot.shape, dim_), n = side_block.stride;
+    const double* shape = operators_[operand.side_block].of(slot.shape);
     for (int c = 0; c < operand.components; ++c) {
-      double* target = &residual_[part.offset + (operand.offset + c) * n];
-      double* scale = &magnitude_[part.offset + (operand.offset + c) * n];
+      double* target = &residual_[side_block.offset + (operand.offset + c) * n];
+      double* scale = &magnitude_[side_block.offset + (operand.offset + c) * n];
       for (int q = 0; q < element_.points; ++q)
         for (int i = 0; i < r; ++i) {
           const double coefficient =
@@ -361,9 +362,10 @@ void ElementEvaluator::add_tangent(const Compiled& term) {
     result.clear();
     for (const Slot& slot : slots) {
       const BoundOperand& operand = term.operands[slot.operand];
-      const SideBlock& part = side_blocks_[operand.part];
-      result.push_back({operators_[operand.part].of(slot.shape), rows(slot.shape, dim_), part.stride,
-                        operand.components, part.offset + operand.offset * part.stride});
+      const SideBlock& side_block = side_blocks_[operand.side_block];
+      result.push_back({operators_[operand.side_block].of(slot.shape), rows(slot.shape, dim_),
+                        side_block.stride, operand.components,
+                        side_block.offset + operand.offset * side_block.stride});
     }
   };
   operators_of(term.signature->outputs, work_.outputs);

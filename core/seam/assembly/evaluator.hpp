@@ -105,7 +105,7 @@ class ElementEvaluator {
 
  private:
   struct BoundOperand {
-    int part;
+    int side_block;
     int offset;  ///< first component within the block
     int components;
   };
@@ -131,7 +131,7 @@ class ElementEvaluator {
   void find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
   int add_part(Field& field, const Operand& operand);
   void compute_operators();
-  void compute_normal_operators(int part);
+  void compute_normal_operators(int side_block);
   void gather();
   void add_change_to_magnitude();
   [[nodiscard]] std::string describe_not_finite(const Compiled& term) const;
@@ -142,16 +142,16 @@ class ElementEvaluator {
   void add_tangent(const Compiled& term);
 
   // What moving points add (evaluator_motion.cpp).
-  void compute_gradient_change(int part);
+  void compute_gradient_change(int side_block);
   void compute_reference_motion();
   void compute_partner_motion();
   void compute_input_change(const Compiled& term);
   /// Derivative of row i of a slot's shape functions with respect to reference coordinate j, [stride].
-  [[nodiscard]] const double* shape_change(const Slot& slot, int part, int point, int j, int i) const;
+  [[nodiscard]] const double* shape_change(const Slot& slot, int side_block, int point, int j, int i) const;
   /// One direction of one component of a slot's test functions at a point.
   struct TestRow {
     const Slot* slot;
-    int part;
+    int side_block;
     std::size_t point;
     int direction;
     std::size_t output;   ///< its coefficient, in all points' outputs
@@ -180,7 +180,7 @@ class ElementEvaluator {
   Role role_;
   bool moves_now_ = false;  ///< the element under work is differentiated with respect to its points' motion
   struct Mover {
-    int part, offset;
+    int side_block, offset;
   };
   std::vector<Mover> movers_;                          ///< where the unknowns that move the points are
   int moves_ = 0;                                      ///< of each point

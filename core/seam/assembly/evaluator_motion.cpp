@@ -81,12 +81,13 @@ void ElementEvaluator::compute_partner_motion() {
 }
 
 const double* ElementEvaluator::shape_change(const Slot& slot, int p, int q, int j, int i) const {
-  const SideBlock& part = side_blocks_[p];
+  const SideBlock& side_block = side_blocks_[p];
   if (slot.shape == Shape::value) {
-    const ShapeTable& table = *element_.sides[part.side].table[part.states->space->order() - 1];
-    return table.gradient_at(q) + static_cast<std::ptrdiff_t>(j) * part.stride;
+    const ShapeTable& table = *element_.sides[side_block.side].table[side_block.states->space->order() - 1];
+    return table.gradient_at(q) + static_cast<std::ptrdiff_t>(j) * side_block.stride;
   }
-  return &operators_[p].gradient_change[((static_cast<std::size_t>(q) * dim_ + j) * dim_ + i) * part.stride];
+  return &operators_[p]
+              .gradient_change[((static_cast<std::size_t>(q) * dim_ + j) * dim_ + i) * side_block.stride];
 }
 
 void ElementEvaluator::compute_input_change(const Compiled& term) {
@@ -95,16 +96,16 @@ void ElementEvaluator::compute_input_change(const Compiled& term) {
   int at = 0;
   for (const Slot& slot : term.signature->inputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const SideBlock& part = side_blocks_[operand.part];
-    const int r = rows(slot.shape, dim_), n = part.stride;
-    const double* values = &local_[static_cast<int>(slot.level)][part.offset + operand.offset * n];
-    const std::vector<double>& motion = reference_motion_[part.side];
+    const SideBlock& side_block = side_blocks_[operand.side_block];
+    const int r = rows(slot.shape, dim_), n = side_block.stride;
+    const double* values = &local_[static_cast<int>(slot.level)][side_block.offset + operand.offset * n];
+    const std::vector<double>& motion = reference_motion_[side_block.side];
     for (int q = 0; q < element_.points; ++q)
       for (int c = 0; c < operand.components; ++c)
         for (int i = 0; i < r; ++i) {
           double* to = &input_change_[(static_cast<std::size_t>(q) * term.inputs + at + c * r + i) * moves];
           for (int j = 0; j < dim_; ++j) {
-            const double* change = shape_change(slot, operand.part, q, j, i);
+            const double* change = shape_change(slot, operand.side_block, q, j, i);
             double slope = 0;
             for (int a = 0; a < n; ++a) slope += change[a] * values[c * n + a];
             for (int m = 0; m < moves; ++m)
@@ -119,7 +120,7 @@ void ElementEvaluator::compute_input_change(const Compiled& term) {
 void ElementEvaluator::scatter_moves(int q, int row, int count, const double* rows) {
   const int* node = &element_.motion->node[static_cast<std::size_t>(q) * movers_.size() * dim_];
   for (const Mover& mover : movers_) {
-    const SideBlock& body = side_blocks_[mover.part];
+    const SideBlock& body = side_blocks_[mover.side_block];
     for (int k = 0; k < dim_; ++k, ++node)
       for (int c = 0; c < dim_; ++c, ++rows) {
         const int column = body.offset + (mover.offset + c) * body.stride + *node;
@@ -136,16 +137,16 @@ void ElementEvaluator::add_moves(const Compiled& term, const Add& add) {
   int at = 0;
   for (const Slot& slot : term.signature->outputs) {
     const BoundOperand& operand = term.operands[slot.operand];
-    const SideBlock& part = side_blocks_[operand.part];
-    const int directions = rows(slot.shape, dim_), n = part.stride;
-    const double* shape = operators_[operand.part].of(slot.shape);
+    const SideBlock& side_block = side_blocks_[operand.side_block];
+    const int directions = rows(slot.shape, dim_), n = side_block.stride;
+    const double* shape = operators_[operand.side_block].of(slot.shape);
     for (std::size_t q = 0; q < static_cast<std::size_t>(element_.points); ++q)
       for (int c = 0; c < operand.components; ++c) {
         moved_.assign(static_cast<std::size_t>(n) * moves_, 0.0);
         for (int i = 0; i < directions; ++i)
-          add(TestRow{&slot, operand.part, q, i, q * term.outputs + at + c * directions + i,
+          add(TestRow{&slot, operand.side_block, q, i, q * term.outputs + at + c * directions + i,
                       shape + static_cast<std::ptrdiff_t>(q * directions + i) * n, n});
-        scatter_moves(static_cast<int>(q), part.offset + (operand.offset + c) * n, n, moved_.data());
+        scatter_moves(static_cast<int>(q), side_block.offset + (operand.offset + c) * n, n, moved_.data());
       }
     at += operand.components * directions;
   }
@@ -171,9 +172,9 @@ void ElementEvaluator::add_motion_tangent(const Compiled& term) {
     add_outer(row, row.shape, change);
     if (force == 0) return;
     for (int j = 0; j < dim_; ++j) {
-      const double* speed = &reference_motion_[side_blocks_[row.part].side][(q * dim_ + j) * moves];
+      const double* speed = &reference_motion_[side_blocks_[row.side_block].side][(q * dim_ + j) * moves];
       for (int m = 0; m < moves; ++m) change[m] = force * speed[m];
-      add_outer(row, shape_change(*row.slot, row.part, static_cast<int>(q), j, row.direction), change);
+      add_outer(row, shape_change(*row.slot, row.side_block, static_cast<int>(q), j, row.direction), change);
     }
   });
 }

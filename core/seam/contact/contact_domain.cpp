@@ -66,16 +66,16 @@ std::vector<Field*> ContactDomain::fields() const {
 
 bool ContactDomain::follow(double time) {
   std::vector<Pairing> before;
-  for (const PairPoints& piece : elements_) before.push_back({piece.facet, piece.opposite_group});
+  for (const PairPoints& points : elements_) before.push_back({points.facet, points.opposite_group});
   elements_.clear();
   const OppositePoints opposite(*own_, other_.get(), opposite_at(time), window_);
   for (const int facet : facets_) add_facet(opposite, facet);
   double least_gap = 0;
-  for (const PairPoints& piece : elements_)
-    least_gap = std::min(least_gap, *std::ranges::min_element(piece.gap));
+  for (const PairPoints& points : elements_)
+    least_gap = std::min(least_gap, *std::ranges::min_element(points.gap));
   passage_.check(opposite, own_->body().mesh().communicator().min(least_gap));
-  return !std::ranges::equal(before, elements_, [](const Pairing& pairing, const PairPoints& piece) {
-    return pairing == Pairing{piece.facet, piece.opposite_group};
+  return !std::ranges::equal(before, elements_, [](const Pairing& pairing, const PairPoints& points) {
+    return pairing == Pairing{points.facet, points.opposite_group};
   });
 }
 
@@ -96,7 +96,7 @@ void ContactDomain::add_facet(const OppositePoints& opposite, int facet) {
       for (std::size_t m = 0; m < growth.size(); ++m) change.relative_weight[m] += growth[m];
       slide.resize(static_cast<std::size_t>(dim - 1) * moves, 0.0);
 
-      PairPoints& to = piece(facet, other_ ? other_->group(hit->facet) : -1);
+      PairPoints& to = points_of(facet, other_ ? other_->group(hit->facet) : -1);
       to.own.weight.push_back(area * stretch.length() * rule_->weights[q]);
       own_->to_cell(facet, on_facet.data(), to.own.reference);
       to.normal.insert(to.normal.end(), normal.begin(), normal.begin() + dim);
@@ -117,7 +117,7 @@ void ContactDomain::add_facet(const OppositePoints& opposite, int facet) {
 }
 
 /// The element of a facet and a cell opposite to it, among those of the facet under work.
-ContactDomain::PairPoints& ContactDomain::piece(int facet, int opposite_group) {
+ContactDomain::PairPoints& ContactDomain::points_of(int facet, int opposite_group) {
   for (auto found = elements_.rbegin(); found != elements_.rend() && found->facet == facet; ++found)
     if (found->opposite_group == opposite_group) return *found;
   PairPoints& added = elements_.emplace_back();
@@ -128,28 +128,28 @@ ContactDomain::PairPoints& ContactDomain::piece(int facet, int opposite_group) {
 }
 
 void ContactDomain::fill(int index, Element& element) const {
-  const PairPoints& piece = elements_[index];
+  const PairPoints& points = elements_[index];
   element.dimension = own_->body().mesh().dimension();
-  element.points = static_cast<int>(piece.own.weight.size());
+  element.points = static_cast<int>(points.own.weight.size());
   element.sides.resize(other_ ? 2 : 1);
-  own_->cell(piece.group).attach(element.sides[0], own_->body());
-  piece.own.attach(element.sides[0], true);
+  own_->cell(points.group).attach(element.sides[0], own_->body());
+  points.own.attach(element.sides[0], true);
   element.sides[0].map_geometry();
   if (other_) {
-    other_->cell(piece.opposite_group).attach(element.sides[1], other_->body());
-    piece.opposite.attach(element.sides[1], true);
+    other_->cell(points.opposite_group).attach(element.sides[1], other_->body());
+    points.opposite.attach(element.sides[1], true);
     element.sides[1].map_geometry();
   }
-  element.weight = piece.own.weight;
-  element.normal = piece.normal;
-  element.gap = piece.gap;
-  element.set_sizes(element.sides[0].diameter, trace_size_.at(piece.facet));
-  element.motion = &piece.motion;
+  element.weight = points.own.weight;
+  element.normal = points.normal;
+  element.gap = points.gap;
+  element.set_sizes(element.sides[0].diameter, trace_size_.at(points.facet));
+  element.motion = &points.motion;
   element.constants.resize(constants_.size());
   for (std::size_t k = 0; k < constants_.size(); ++k) {
     const int side = constants_[k].side;
     const BodySurface& surface = side == 0 ? *own_ : *other_;
-    const int group = side == 0 ? piece.group : piece.opposite_group;
+    const int group = side == 0 ? points.group : points.opposite_group;
     element.constants[k].assign(
         element.points,
         of_side_[side].value(constants_[k].number, group, surface.cell(group), surface.faces(group)));
@@ -157,9 +157,9 @@ void ContactDomain::fill(int index, Element& element) const {
 }
 
 const int* ContactDomain::nodes(int index, int side, int block) const {
-  const PairPoints& piece = elements_[index];
-  return side == 0 ? own_->cell(piece.group).nodes[block].data()
-                   : other_->cell(piece.opposite_group).nodes[block].data();
+  const PairPoints& points = elements_[index];
+  return side == 0 ? own_->cell(points.group).nodes[block].data()
+                   : other_->cell(points.opposite_group).nodes[block].data();
 }
 
 int ContactDomain::add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) {

@@ -50,7 +50,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] Surface opposite_at(double time) const { return other_ ? other_->now() : obstacle_(time); }
   void measure_cells();
   void add_facet(const OppositePoints& opposite, int facet);
-  PairPoints& piece(int facet, int opposite_group);
+  PairPoints& points_of(int facet, int opposite_group);
 
   std::shared_ptr<const BodySurface> own_, other_;
   MovingSurface obstacle_;

@@ -34,11 +34,11 @@ nlohmann::json describe(const AnyState& state) {
           {"size", state.size()}};
 }
 
-/// "water/order 1/value with 3 numbers on each of 320 (node)"
+/// "water/order 1/value" with 3 numbers on each of 320 "node"
 std::string in_words(const nlohmann::json& state) {
-  const auto text = [&](const char* key) { return state.value(key, std::string("nothing")); };
-  const auto number = [&](const char* key) { return state.value(key, nlohmann::json()).dump(); };
-  return fmt::format("'{}' with {} numbers on each of {} ({})", text("name"), number("size"), number("count"),
+  if (!state.is_object()) return state.dump();
+  const auto text = [&](const char* key) { return state.value(key, nlohmann::json()).dump(); };
+  return fmt::format("{} with {} numbers on each of {} {}", text("name"), text("size"), text("count"),
                      text("on"));
 }
 
@@ -78,8 +78,14 @@ nlohmann::json parse(const std::filesystem::path& file, const std::string& bytes
   const auto damaged = [&] { return damaged_file(file); };
   std::uint64_t length = 0, sum = 0;
   constexpr std::size_t fixed = sizeof magic + sizeof length;
-  if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + sizeof magic, bytes.begin()))
-    throw damaged();
+  constexpr std::size_t number = sizeof magic - 1;  // where the format's stands
+  if (bytes.size() < fixed + sizeof sum || !std::equal(magic, magic + number, bytes.begin())) throw damaged();
+  if (bytes[number] != magic[number] && bytes[number] >= '0' && bytes[number] <= '9')
+    throw Error(
+        fmt::format("the restart point '{}' was written by another version of Seam: found format {}, "
+                    "expected {}; begin the run anew",
+                    file.string(), bytes[number], magic[number]));
+  if (bytes[number] != magic[number]) throw damaged();
   std::copy_n(bytes.data() + sizeof magic, sizeof length, reinterpret_cast<char*>(&length));
   std::copy_n(bytes.data() + bytes.size() - sizeof sum, sizeof sum, reinterpret_cast<char*>(&sum));
   if (checksum(bytes.substr(0, bytes.size() - sizeof sum)) != sum ||
