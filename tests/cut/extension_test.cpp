@@ -65,3 +65,26 @@ TEST_CASE("all levels of a state, old ones included, go on to new nodes as they 
     CHECK(value == Approx(exact).epsilon(1e-9).margin(1e-9));
   });
 }
+
+TEST_CASE("what states are extended to does not depend on the unit of length", "[ranks]") {
+  std::vector<std::vector<double>> values;
+  for (const double unit : {1.0, 100.0}) {
+    const Mesh mesh = grid(CellType::quadrilateral, {5, 4, 0}, [&](const Point& x) {
+      return Point{unit * x[0], unit * x[1], 0};
+    });
+    Field field("water", mesh, {{"v", 1, 2, 1, ""}});
+    field.occupy(std::vector<char>(mesh.cells(), 1));
+    Block& block = field.blocks()[0];
+    for (int n = 0; n < block.space->nodes(); ++n) {
+      const double* x = block.space->position(n);
+      const bool is_new = std::hypot(x[0], x[1]) < 0.25 * unit;
+      block.known[n] = is_new ? 0 : 1;
+      block.now.value[n] = is_new ? 1e3 : std::sin(5 * x[0] / unit + 2 * x[1] / unit);
+    }
+    Extension(field).extend();
+    values.push_back(block.now.value);
+  }
+  REQUIRE(values[0].size() == values[1].size());
+  for (std::size_t n = 0; n < values[0].size(); ++n)
+    CHECK(values[1][n] == Approx(values[0][n]).epsilon(1e-9).margin(1e-9));
+}
