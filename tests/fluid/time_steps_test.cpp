@@ -39,6 +39,9 @@ TEST_CASE(
   CHECK(next(1, 3) == Approx(0.03));
   CHECK(next(0, 9) == Approx(0.07));
   CHECK(next(0.04, 9) == Approx(0.045));
+  // At a kink, as the end is one, a short step says nothing of the next one.
+  CHECK(stepper.after_success(10, 0.05, 0.4, 0, 3) == Approx(0.1));
+  CHECK(stepper.after_success(10, 0.05, 0.02, 0, 3) == Approx(0.05));
 }
 
 TEST_CASE("the error in time is relative to the largest state so far, and cut cells count by what is wet") {
