@@ -58,7 +58,6 @@ struct EquationBlock {
   std::vector<int> unknowns = {1};
   bool symmetric = true;            ///< nearly, so that smoothers for symmetric matrices serve
   std::vector<double> coordinates;  ///< [local node][dimension], owned and active
-  std::vector<std::vector<double>> near_nullspace;  ///< vectors over the block's local rows
   int dimension = 2;
 
   /// How many scalars, as a pressure, follow vectors: their equations constrain these.
