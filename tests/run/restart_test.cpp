@@ -3,6 +3,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <thread>
 
@@ -19,6 +20,14 @@ std::string run(const Folder& folder, const std::string& where, const std::strin
   return "run " + scene + " --quiet --no-picture --folder " + (folder.path / where).string() + " " + more;
 }
 
+/// Name of the newest restart point in a folder.
+std::string newest(const std::filesystem::path& folder) {
+  std::string name;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    name = std::max(name, entry.path().filename().string());
+  return name;
+}
+
 }  // namespace
 
 TEST_CASE("a restarted run equals the uninterrupted one to the bit, on one rank", "[sanitized]") {
@@ -28,6 +37,17 @@ TEST_CASE("a restarted run equals the uninterrupted one to the bit, on one rank"
   REQUIRE(seam(run(folder, "parts", "--resume --stop-after 13")).code == 0);
   REQUIRE(seam(run(folder, "parts", "--resume")).code == 0);
   CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
+}
+
+TEST_CASE("adaptive steps go on after a restart as they would have, relative to the largest state so far") {
+  const Folder folder;
+  const std::string adaptive = " --set time.step.adaptive=true time.step.tolerance=0.02 ";
+  REQUIRE(seam(run(folder, "whole", adaptive)).code == 0);
+  REQUIRE(seam(run(folder, "parts", adaptive + "--stop-after 9")).code == 0);
+  REQUIRE(seam(run(folder, "parts", adaptive + "--resume")).code == 0);
+  CHECK(folder.read("parts/series.csv") == folder.read("whole/series.csv"));
+  CHECK_THAT(folder.read("whole/restart/" + newest(folder.path / "whole/restart")),
+             Catch::Contains("\"largest of each unknown\""));
 }
 
 TEST_CASE("a run that stops after some steps goes on from there") {
