@@ -20,11 +20,11 @@ enum class WhenUncovered {
 
 /// What is declared of a state.
 struct StateDeclaration {
-  std::string name;  ///< "water.velocity": what restart points and messages call it
+  std::string name;  ///< "water/order 1/value": what restart points and messages call it
   std::shared_ptr<const Entities> on;
   int size = 1;  ///< numbers of an entity
-  int levels =
-      1;  ///< 1: at present; 2: at the start of the step, too; 3: at the start of the one before, too
+  /// 1: at present; 2: at the start of the step, too; 3: at the start of the one before, too.
+  int levels = 1;
   WhenUncovered when_uncovered = WhenUncovered::kept;
   /// It ends with the step: no restart point has it.
   bool lasts_a_step = false;
