@@ -137,6 +137,7 @@ def plugin_file(build, name):
 
 def first_failure(output):
     """The name of the test case or scene that failed first, or the line that says so."""
+    output = re.sub(r"\x1b\[[0-9;]*m", "", output)  # colours
     case = re.search(r"-{70,}\n(.+)\n(?:.*\n)*?-{70,}\n.*\n\.{70,}\n\n.*FAILED", output)
     if case:
         return case.group(1).strip()
@@ -189,6 +190,7 @@ class Tree:
             raise
         if re.search(r"No test cases matched|No tests (ran|were found)", output):
             sys.exit(f"test `{test}` names no test case of {command[0]}: mend CHAINS or the `test:` line")
+        output = output.replace(f"{self.root}/", "")
         return process.returncode == 0, first_failure(output) or f"exit code {process.returncode}"
 
     def outcome(self, change):

@@ -38,7 +38,7 @@ void Assembler::add(const std::shared_ptr<const IntegrationDomain>& domain,
   Group group{domain, std::make_unique<ElementEvaluator>(*domain, terms, role), {}};
   for (const auto& side_block : group.evaluator->side_blocks())
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-      if (blocks_[b].block == side_block.states) group.block_of_part.push_back(static_cast<int>(b));
+      if (blocks_[b].block == side_block.states) group.block_of_side_block.push_back(static_cast<int>(b));
   groups_.push_back(std::move(group));
 }
 
@@ -103,7 +103,7 @@ void Assembler::collect_elements(NodeGraph::Elements& elements) const {
       for (std::size_t p = 0; p < parts.size(); ++p) {
         const int* nodes = group.domain->nodes(e, parts[p].side, parts[p].block);
         for (int a = 0; a < parts[p].nodes; ++a)
-          if (const int n = blocks_[group.block_of_part[p]].node_index[nodes[a]]; n >= 0)
+          if (const int n = blocks_[group.block_of_side_block[p]].node_index[nodes[a]]; n >= 0)
             elements.node.push_back(n);
       }
       elements.start.push_back(elements.node.size());
@@ -222,7 +222,7 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
       const auto& side_block = element.side_blocks()[p];
       const int* nodes = element.element().sides[side_block.side].nodes[side_block.block];
       for (int a = 0; a < side_block.nodes; ++a)
-        element_nodes_.push_back(blocks_[group.block_of_part[p]].node_index[nodes[a]]);
+        element_nodes_.push_back(blocks_[group.block_of_side_block[p]].node_index[nodes[a]]);
     }
     scatter_vector(element);
     if (with_tangent) scatter_matrix(element);

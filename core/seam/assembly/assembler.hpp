@@ -79,7 +79,7 @@ class Assembler {
   struct Group {
     std::shared_ptr<const IntegrationDomain> domain;
     std::unique_ptr<ElementEvaluator> evaluator;
-    std::vector<int> block_of_part;  ///< index into blocks_
+    std::vector<int> block_of_side_block;  ///< index into blocks_
   };
   struct NumberedBlock {
     Field* field;

@@ -64,7 +64,7 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
     : domain_(&domain), role_(role) {
   dim_ = domain.fields().front()->mesh().dimension();
   for (const BoundTerm& bound : terms) check_binding(bound, domain);
-  find_parts(domain, terms);
+  find_side_blocks(domain, terms);
   operators_.resize(side_blocks_.size());
   for (const BoundTerm& bound : terms) {
     const Signature& s = bound.term->signature(dim_);
@@ -97,14 +97,15 @@ ElementEvaluator::ElementEvaluator(const IntegrationDomain& domain, const std::v
   }
 }
 
-void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms) {
+void ElementEvaluator::find_side_blocks(const IntegrationDomain& domain,
+                                        const std::vector<BoundTerm>& terms) {
   const std::vector<Field*> fields = domain.fields();
   for (const BoundTerm& bound : terms)
-    for (const Operand& operand : bound.operands) add_part(*fields.at(operand.side), operand);
+    for (const Operand& operand : bound.operands) add_side_block(*fields.at(operand.side), operand);
   if (role_ != Role::integrate_at_rest)
     for (const Operand& mover : domain.movers()) {
       Field& body = *fields.at(mover.side);
-      movers_.push_back({add_part(body, mover), body.place(mover.unknown).offset});
+      movers_.push_back({add_side_block(body, mover), body.place(mover.unknown).offset});
     }
   moves_ = static_cast<int>(movers_.size()) * dim_ * dim_;
   if (moves_ > most_moves)
@@ -119,7 +120,7 @@ void ElementEvaluator::find_parts(const IntegrationDomain& domain, const std::ve
 }
 
 /// The part of an operand's block, which is added if it is new.
-int ElementEvaluator::add_part(Field& field, const Operand& operand) {
+int ElementEvaluator::add_side_block(Field& field, const Operand& operand) {
   const int b = field.place(operand.unknown).block;
   const auto known = std::find_if(side_blocks_.begin(), side_blocks_.end(),
                                   [&](const SideBlock& p) { return p.side == operand.side && p.block == b; });

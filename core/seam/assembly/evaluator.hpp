@@ -128,8 +128,8 @@ class ElementEvaluator {
     [[nodiscard]] const double* of(Shape shape) const;
   };
 
-  void find_parts(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
-  int add_part(Field& field, const Operand& operand);
+  void find_side_blocks(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms);
+  int add_side_block(Field& field, const Operand& operand);
   void compute_operators();
   void compute_normal_operators(int side_block);
   void gather();

@@ -12,6 +12,11 @@ namespace seam {
 
 namespace {
 
+/// What the states of a block are called, without their levels.
+std::string states_of(const std::string& field, bool given, int order) {
+  return fmt::format("{}/{}order {}", field, given ? "given, " : "", order);
+}
+
 /// Unknowns that will share a block.
 struct Shared {
   int order;
@@ -64,7 +69,7 @@ Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, 
     shared[b].time_order.insert(shared[b].time_order.end(), unknown.components, unknown.time_order);
   }
   for (Shared& s : shared) {
-    blocks_.emplace_back(*state_, fmt::format("{}/{}order {}", name_, s.given ? "given, " : "", s.order),
+    blocks_.emplace_back(*state_, states_of(name_, s.given, s.order),
                          std::make_unique<Space>(mesh, s.order, sets), s.given, std::move(s.components),
                          std::move(s.time_order));
     resize(blocks_.back());
@@ -84,9 +89,8 @@ void Field::resize(Block& block) const {
 void Field::keep_mean_rates() {
   for (Block& block : blocks_) {
     const auto add = [&](const char* level) -> StateArray<double>& {
-      return state_->add<double>(
-          {fmt::format("{}/{}order {}/{}", name_, block.given ? "given, " : "", block.space->order(), level),
-           nodes_of(*block.space), block.size, 2, WhenUncovered::extended});
+      return state_->add<double>({states_of(name_, block.given, block.space->order()) + "/" + level,
+                                  nodes_of(*block.space), block.size, 2, WhenUncovered::extended});
     };
     StateArray<double>&mean = add("mean rate"), &second = add("mean second rate");
     block.now.mean_rate = &mean.now();

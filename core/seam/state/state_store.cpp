@@ -169,18 +169,20 @@ void StateStore::resumed(double time) {
 
 void StateStore::uncover(const Mesh& mesh, const std::vector<int>& cells) {
   for (AnyState* state : states()) {
-    if (state->when_uncovered() != WhenUncovered::initial &&
-        state->when_uncovered() != WhenUncovered::refused)
-      continue;
+    const bool refuses = state->when_uncovered() == WhenUncovered::refused;
+    if (!refuses && state->when_uncovered() != WhenUncovered::initial) continue;
+    bool any = false;
     for (const int cell : cells) {
       const auto [first, last] = state->on().in_cell(mesh, cell);
-      if (first < last && state->when_uncovered() == WhenUncovered::refused)
-        throw Error(
-            fmt::format("'{}' has nothing to begin with in a cell that a body uncovers: it needs a mesh "
-                        "that no body cuts",
-                        state->name()));
-      for (int e = first; e < last; ++e) state->begin_anew(e);
+      any = any || first < last;
+      for (int e = first; e < last && !refuses; ++e) state->begin_anew(e);
     }
+    // On all ranks or on none.
+    if (refuses && state->on().communicator().any(any))
+      throw Error(fmt::format(
+          "'{}' has nothing to begin with in a cell that a body uncovers: it needs a mesh that no "
+          "body cuts",
+          state->name()));
   }
 }
 

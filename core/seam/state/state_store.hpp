@@ -33,7 +33,7 @@ struct StateDeclaration {
 /// A state of whatever type its numbers are.
 class AnyState {
  public:
-  AnyState(StateDeclaration declaration) : declaration_(std::move(declaration)) {}
+  explicit AnyState(StateDeclaration declaration) : declaration_(std::move(declaration)) {}
   virtual ~AnyState() = default;
   AnyState(const AnyState&) = delete;
   AnyState& operator=(const AnyState&) = delete;
@@ -142,8 +142,8 @@ class StateStore {
   void restore(const Snapshot& snapshot);
   /// The present states are those at the start of the step from now on.
   void advance();
-  /// Cells that a body has uncovered begin as was declared.
-  /// @param cells local ones of this mesh @throws Error naming the state that refuses
+  /// Cells that a body has uncovered begin as was declared. Collective.
+  /// @param cells local ones of this mesh @throws Error on all ranks, naming the state that refuses
   void uncover(const Mesh& mesh, const std::vector<int>& cells);
   /// After states have been taken from a restart point.
   void resumed(double time);
