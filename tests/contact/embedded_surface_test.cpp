@@ -187,3 +187,19 @@ TEST_CASE("a surface that lies deeper in the other body than the window looks ba
   CHECK_NOTHROW(Stamp(-0.5, 0.04));
   CHECK_THROWS_WITH(Stamp(-0.5, 0.06), Catch::Contains("has passed through"));
 }
+
+TEST_CASE("that bodies have come deep into each other is a state, and goes back with a step") {
+  const auto is_deep = [](const Field& body) {
+    for (const AnyState* state : body.state().states())
+      if (state->name() == "stamp/passage/step") return state->numbers() == std::vector<double>{1};
+    FAIL("the stamp has no such state");
+    return false;
+  };
+  // Half of what the window looks back is 0.025.
+  CHECK_FALSE(is_deep(Stamp(-0.5, 0.02).stamp));
+  const Stamp deep(-0.5, 0.03);
+  CHECK(is_deep(deep.stamp));
+  const StateStore::Snapshot before = Stamp(-0.5, 0.02).stamp.state().snapshot(0);
+  deep.stamp.state().restore(before);
+  CHECK_FALSE(is_deep(deep.stamp));
+}
