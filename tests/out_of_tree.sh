@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs Seam into a folder of its own, builds plugins against that installation only, and runs their tests (their
-# scenes, and the conformance kit): the template, a coupling of Seam's own fluid and solid, and a law of friction in contact.
+# scenes, and the conformance kit): the template, a coupling of Seam's own fluid and solid, a law of friction in contact, a linear solver and a block inverse.
 # Usage: out_of_tree.sh <source folder> <build folder>
 set -eu
 source=$1
@@ -30,7 +30,7 @@ build_plugin() {
 
   # Headers that the plugin was built with: installed ones, and none of the solver stack.
   ninja -C "$work/$1-build" -t deps >"$work/headers"
-  grep -q "$work/seam/include/seam/term/kernel_term.hpp" "$work/headers" || fail "the installed headers were not used"
+  grep -q "$work/seam/include/seam/plugin/plugin.hpp" "$work/headers" || fail "the installed headers were not used"
   if grep -q "$source/core" "$work/headers"; then fail "headers of the source tree were used"; fi
   if grep -iE "trilinos|Tpetra|Teuchos|Kokkos|vtk" "$work/headers"; then fail "a plugin must not need these headers"; fi
 
@@ -40,6 +40,7 @@ build_plugin() {
 build_plugin example "$source/tools/template"
 build_plugin friction "$source/tests/out_of_tree/friction"
 build_plugin coulomb "$source/tests/out_of_tree/coulomb"
+build_plugin solvers "$source/tests/out_of_tree/solvers"
 
 # The material, the volume term and the CMake calls that make a plugin of them.
 lines=$(cat "$work/example/mooney_rivlin.cpp" "$work/example/heat.cpp" | wc -l)

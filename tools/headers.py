@@ -20,7 +20,7 @@ CORE = pathlib.Path(__file__).resolve().parent.parent / "core"
 ABI = CORE / "seam/plugin/abi.txt"
 ENTRIES = """
     assembly/domains.hpp base/plugin_fault.hpp interface/adjoint.hpp interface/cell_constant.hpp
-    interface/interface.hpp linear/linear_solver.hpp physics/body_terms.hpp physics/hyperelastic.hpp
+    interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp physics/body_terms.hpp physics/hyperelastic.hpp
     physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
     plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp
     scene/schema.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp

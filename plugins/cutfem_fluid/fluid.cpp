@@ -60,8 +60,11 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
 }
 
 std::vector<Unknown> Fluid::unknowns(int dimension) const {
-  std::vector<Unknown> result{{"velocity", dimension, order_, 1, "m/s"}, {"pressure", 1, order_, 0, "Pa"}};
-  if (on_mesh_.moves) result.push_back({"displacement", dimension, 1, 1, "m"});
+  std::vector<Unknown> result{{"velocity", dimension, order_, 1, "m/s"},
+                              {"pressure", 1, order_, 0, "Pa", UnknownRole::constraint}};
+  if (on_mesh_.moves)
+    result.push_back(
+        {"displacement", dimension, 1, 1, "m", UnknownRole::motion, NearNullspace::rigid_motions});
   body_force_.add_unknown(result, dimension, order_);
   return result;
 }

@@ -77,9 +77,10 @@ PorousSolid::PorousSolid(const Parameters& parameters, const Registry& registry)
 }
 
 std::vector<Unknown> PorousSolid::unknowns(int dimension) const {
-  std::vector<Unknown> result{{"displacement", dimension, order_, has_mass_ ? 2 : 1, "m"},
+  std::vector<Unknown> result{{"displacement", dimension, order_, has_mass_ ? 2 : 1, "m", UnknownRole::motion,
+                               NearNullspace::rigid_motions},
                               {"velocity", dimension, order_, fluid_density_ > 0 ? 1 : 0, "m/s"},
-                              {"pressure", 1, 1, porosity_changes_ ? 1 : 0, "Pa"}};
+                              {"pressure", 1, 1, porosity_changes_ ? 1 : 0, "Pa", UnknownRole::constraint}};
   body_force_.add_unknown(result, dimension, order_);
   fluid_force_.add_unknown(result, dimension, order_);
   return result;

@@ -193,8 +193,9 @@ int RigidBody::time_order() const {
 }
 
 std::vector<Unknown> RigidBody::unknowns(int dimension) const {
-  return {{"translation", dimension, 1, time_order(), "m"},
-          {"rotation", dimension == 2 ? 1 : 3, 1, time_order(), "rad"}};
+  Unknown rotation{"rotation", dimension == 2 ? 1 : 3, 1, time_order(), "rad"};
+  rotation.scale = 1;
+  return {{"translation", dimension, 1, time_order(), "m", UnknownRole::motion}, rotation};
 }
 
 void RigidBody::prescribe(FieldSetup& setup, const std::string& unknown) const {

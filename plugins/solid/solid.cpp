@@ -75,9 +75,10 @@ Solid::Solid(const Parameters& p, const Registry& registry)
 }
 
 std::vector<Unknown> Solid::unknowns(int dimension) const {
-  std::vector<Unknown> result{{unknown_name, dimension, order_, has_mass_ ? 2 : 0, "m"}};
+  std::vector<Unknown> result{{unknown_name, dimension, order_, has_mass_ ? 2 : 0, "m", UnknownRole::motion,
+                               NearNullspace::rigid_motions}};
   if (mixed_) {
-    result.push_back({"pressure", 1, 1, 0, "Pa"});
+    result.push_back({"pressure", 1, 1, 0, "Pa", UnknownRole::constraint});
     result.push_back({"dilation", 1, 1, 0, ""});
   }
   body_force_.add_unknown(result, dimension, order_);

@@ -37,7 +37,7 @@ struct Dashpot {
 class Massless final : public Physics {
  public:
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override {
-    return {{"displacement", dimension, 1, 0, "m"}};
+    return {{"displacement", dimension, 1, 0, "m", UnknownRole::motion}};
   }
   void build(FieldSetup& setup) const override { setup.add_cell_term(make_term(Spring{}), {"displacement"}); }
 };

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "flow_problem.hpp"
-#include "seam/linear/krylov_solver.hpp"
+#include "solver/krylov.hpp"
 
 using namespace seam;
 using namespace seam::test;
@@ -19,17 +19,6 @@ boundary:
   - {on: [y_min, y_max, z_min, z_max], velocity: [0, 0, 0]}
   - {on: x_max, outflow: do_nothing}
 )yaml";
-
-Parameters krylov(const std::string& preconditioner) {
-  Parameters p;
-  p.set("tolerance", {1e-8, {}, {}, true});
-  p.set("maximum_iterations", {300L, {}, {}, true});
-  p.set("restart", {100L, {}, {}, true});
-  p.set("keep", {0.0, {}, {}, true});
-  p.set("fill", {0L, {}, {}, true});
-  p.set("preconditioner", {preconditioner, {}, {}, true});
-  return p;
-}
 
 struct Solved {
   int iterations = 0;  ///< most of a linear solve
@@ -57,7 +46,9 @@ Solved step(int cells, LinearSolver& solver) {
 }  // namespace
 
 TEST_CASE("with a Schur complement iterations do not grow with the mesh") {
-  KrylovSolver coarse(krylov("schur")), fine(krylov("schur")), plain(krylov("ilu"));
+  const KrylovOptions options{1e-8, 0, 0};
+  KrylovSolver coarse = krylov("schur", options), fine = krylov("schur", options),
+               plain = krylov("ilu", options);
   MumpsSolver direct;
   const Solved on_coarse = step(10, coarse), exact = step(10, direct);
   REQUIRE(on_coarse.values.size() == exact.values.size());

@@ -202,27 +202,6 @@ output: {fields: false}
   CHECK_THAT(done.output, Catch::Contains("2 parts that share no node"));
 }
 
-TEST_CASE("what an iterative solver has no preconditioner for is refused by name") {
-  const Folder folder;
-  const auto with_krylov = [&](const std::string& scene) {
-    return seam(
-        "run " SEAM_SOURCE_DIR "/configs/" + scene + " --no-picture --quiet --folder " +
-        (folder.path / "out").string() +
-        " --overwrite --set output.fields=false --set 'solver.linear={type: krylov, tolerance: 1e-8}'");
-  };
-  const auto enclosed = with_krylov("fsi/pressed_block.yaml");
-  CAPTURE(enclosed.output);
-  CHECK(enclosed.code == 1);
-  CHECK_THAT(enclosed.output, Catch::Contains("'water'") &&
-                                  Catch::Contains("held by nothing in this field") &&
-                                  Catch::Contains("multigrid") && !Catch::Contains("is not held"));
-  const auto mixed = with_krylov("solid/cook_incompressible.yaml --set parameters.n=16");
-  CAPTURE(mixed.output);
-  CHECK(mixed.code == 1);
-  CHECK_THAT(mixed.output,
-             Catch::Contains("unknowns of several orders") && Catch::Contains("linear: direct"));
-}
-
 TEST_CASE("an iterative solver that stops short is not taken for a pressure that nothing holds") {
   const Folder folder;
   const auto short_of =

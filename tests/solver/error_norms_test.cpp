@@ -16,7 +16,7 @@ class Stretched final : public Physics {
  public:
   explicit Stretched(bool moves) : moves_(moves) {}
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override {
-    return {{"c", 1, 1, 0, ""}, {"shift", dimension, 1, 0, "m"}};
+    return {{"c", 1, 1, 0, ""}, {"shift", dimension, 1, 0, "m", UnknownRole::motion}};
   }
   void build(FieldSetup& setup) const override {
     setup.add_cell_term(make_term(test::Diffusion{}), {"c"});

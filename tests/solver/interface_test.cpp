@@ -6,12 +6,13 @@
 
 #include "diffusion.hpp"
 #include "seam/interface/matching.hpp"
-#include "seam/linear/krylov_solver.hpp"
 #include "seam/record/error_norms.hpp"
+#include "solver/krylov.hpp"
 
 namespace {
 
 using namespace seam;
+using test::krylov;
 
 /// Linear conduction in both bodies, transfer a (c0 - c1) between them.
 struct Conduction {
@@ -89,15 +90,12 @@ std::unique_ptr<Problem> two_bodies(CellType cell, int order) {
   return problem;
 }
 
-Parameters krylov(const std::string& preconditioner) {
-  Parameters p;
-  p.set("tolerance", {1e-12, {}, {}, true});
-  p.set("maximum_iterations", {200L, {}, {}, true});
-  p.set("restart", {100L, {}, {}, true});
-  p.set("keep", {1.5, {}, {}, true});
-  p.set("fill", {1L, {}, {}, true});
-  p.set("preconditioner", {preconditioner, {}, {}, true});
-  return p;
+/// Those of a field of one scalar.
+EquationBlock equations(const std::string& field, int first, int count) {
+  EquationBlock block{field, 2, first, count, {}};
+  EquationUnknown& unknown = block.unknowns.emplace_back();
+  for (int r = 0; r < count; ++r) unknown.rows.push_back(first + r);
+  return block;
 }
 
 void check_exact(Problem& problem) {
@@ -206,7 +204,7 @@ TEST_CASE("errors along an interface are those on the parts of it that bound the
 TEST_CASE("block Gauss-Seidel solves two coupled fields", "[ranks]") {
   const std::string preconditioner = GENERATE("multigrid", "schur", "ilu");
   auto problem = two_bodies(CellType::hexahedron, 1);
-  KrylovSolver solver(krylov(preconditioner));
+  KrylovSolver solver = krylov(preconditioner);
   Newton newton(*problem, solver, {1e-11, 1e-5, 10, true});
   const TimePoint at = time_point(1, 0, 1);
   problem->begin_step(at);
@@ -232,9 +230,8 @@ TEST_CASE("a kept preconditioner serves a matrix that was built anew with the sa
   };
   a.global_rows = n;
   for (int r = 0; r < n; ++r) a.column_global.push_back(r);
-  EquationBlock block;
-  block.count = n;
-  KrylovSolver solver(krylov("ilu"));
+  const EquationBlock block = equations("c", 0, n);
+  KrylovSolver solver = krylov("ilu");
   const std::vector<double> b(n, 1.0);
   std::vector<double> x, y;
   fill(1);
@@ -281,11 +278,8 @@ Matrix chain(int groups, int size, double before, const std::vector<double>& dia
 
 std::vector<EquationBlock> blocks_of(int groups, int size) {
   std::vector<EquationBlock> blocks(groups);
-  for (int g = 0; g < groups; ++g) {
-    blocks[g].field = std::string(1, static_cast<char>('a' + g));
-    blocks[g].first = g * size;
-    blocks[g].count = size;
-  }
+  for (int g = 0; g < groups; ++g)
+    blocks[g] = equations(std::string(1, static_cast<char>('a' + g)), g * size, size);
   return blocks;
 }
 
@@ -294,7 +288,7 @@ std::vector<EquationBlock> blocks_of(int groups, int size) {
 TEST_CASE("of blocks that depend on those before them one sweep is the inverse") {
   constexpr int groups = 4, size = 6;
   const Matrix a = chain(groups, size, 3, {4}, -1);
-  KrylovSolver solver(krylov("ilu"));
+  KrylovSolver solver = krylov("ilu");
   std::vector<double> x;
   // Of three diagonals, an incomplete factorisation is the whole one.
   CHECK(solver.solve(a, blocks_of(groups, size), std::vector<double>(a.rows, 1.0), x).iterations == 1);
@@ -312,8 +306,9 @@ TEST_CASE("what is kept of a solver is given up once it costs too many iteration
   };
   Parameters p;
   p.set("keep", {4L, {}, {}, true});
-  MumpsSolver direct(p);                  // keeps its factors up to 4 iterations
-  KrylovSolver iterative(krylov("ilu"));  // keeps up to 1.5 times the iterations of the first solve, one here
+  MumpsSolver direct(p);  // keeps its factors up to 4 iterations
+  KrylovSolver iterative =
+      krylov("ilu");  // keeps up to 1.5 times the iterations of the first solve, one here
   for (LinearSolver* solver : {static_cast<LinearSolver*>(&direct), static_cast<LinearSolver*>(&iterative)}) {
     CAPTURE(solver == &direct);
     CHECK(solved(*solver, {1}).new_factorisation);

@@ -23,9 +23,10 @@ class ManufacturedSolid final : public Physics {
  public:
   explicit ManufacturedSolid(const Body& body) : body_(body), material_(neo_hookean(body.poisson)) {}
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override {
-    std::vector<Unknown> all{{"displacement", dimension, body_.order, body_.dynamic ? 2 : 0, "m"}};
+    std::vector<Unknown> all{
+        {"displacement", dimension, body_.order, body_.dynamic ? 2 : 0, "m", UnknownRole::motion}};
     if (body_.mixed) {
-      all.push_back({"pressure", 1, 1, 0, "Pa"});
+      all.push_back({"pressure", 1, 1, 0, "Pa", UnknownRole::constraint});
       all.push_back({"dilation", 1, 1, 0, ""});
     }
     return all;

@@ -115,7 +115,7 @@ std::optional<ConformanceCheck> run_ranks(const PluginHost::Found& plugin, const
       return conformance_check(
           "independence of the number of ranks", false,
           fmt::format("'{}', a plugin of the same name, is found first; remove it", found.file.string()));
-  return run_on_ranks(scene, conformance_overrides(), options.ranks, folder);
+  return run_on_ranks(scene, conformance_overrides(plugin.info), options.ranks, folder);
 }
 
 // The plugin's code runs in children of this process alone: a crash there is one more finding. What a child
@@ -177,7 +177,7 @@ void check_one_scene(const Options& options, const PluginHost::Found& plugin, Pl
   const fs::path folder = options.work;
   record.begin("loads");
   try {
-    const Scene scene = load_scene(file, conformance_overrides(), host, registry);
+    const Scene scene = load_scene(file, conformance_overrides(plugin.info), host, registry);
     for_each_typed(scene, registry, [&](const Registry::Entry& entry, const Parameters& parameters) {
       record.use(entry.kind + ":" + entry.name);
       if (entry.plugin != plugin.name || entry.kind != "hyperelastic") return;

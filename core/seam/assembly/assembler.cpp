@@ -13,13 +13,14 @@ namespace seam {
 
 namespace {
 
-/// Which components of a block displace points, [component]: positions are added to them.
-std::vector<char> displacements(const Field& field, const Block& block) {
-  std::vector<char> result(block.size, 0);
+/// Sizes that the components of a block have by their nature, see Unknown. @param cell diameter
+std::vector<double> scales(const Field& field, const Block& block, double cell) {
+  std::vector<double> result(block.size, 0.0);
   for (const Unknown& unknown : field.unknowns()) {
     const Field::ComponentRange place = field.place(unknown.name);
-    if (&field.blocks()[place.block] != &block || unknown.unit != "m") continue;
-    std::fill_n(result.begin() + place.offset, place.components, char{1});
+    if (&field.blocks()[place.block] != &block) continue;
+    const double scale = unknown.role == UnknownRole::motion ? std::max(unknown.scale, cell) : unknown.scale;
+    std::fill_n(result.begin() + place.offset, place.components, scale);
   }
   return result;
 }
@@ -199,8 +200,7 @@ std::vector<double> Assembler::rounding() const {
     double cell = 0;
     for (int c = 0; c < mesh.owned_cells(); ++c) cell = std::max(cell, mesh.diameter(c));
     cell = communicator_.max(cell);
-    for (const char displaces : displacements(*b.field, *b.block))
-      added[b.block].push_back(displaces ? cell : 0.0);
+    added[b.block] = scales(*b.field, *b.block, cell);
   }
   // Roundings are as often up as down: their squares add up.
   std::vector<double> squares = sum_rows(
@@ -365,22 +365,28 @@ void Assembler::name_unknowns() {
 
 std::vector<EquationBlock> Assembler::equation_blocks() const {
   std::vector<EquationBlock> result;
-  int first = 0;
-  for (const NumberedBlock& b : blocks_) {
+  for (const Field* field : fields_) {
     EquationBlock block;
-    block.field = b.field->name();
-    block.first = first;
-    block.unknowns_per_node = b.block->size;
-    block.dimension = b.field->mesh().dimension();
-    block.unknowns = b.block->components;
-    for (int node = 0; node < b.block->space->owned_nodes(); ++node) {
-      if (b.node_index[node] < 0) continue;
-      const double* x = b.block->space->position(node);
-      block.coordinates.insert(block.coordinates.end(), x, x + block.dimension);
-      block.count += b.block->size;
+    block.field = field->name();
+    block.dimension = field->mesh().dimension();
+    for (const Unknown& unknown : field->unknowns()) {
+      if (unknown.given) continue;
+      const Field::ComponentRange place = field->place(unknown.name);
+      const Space& space = *field->blocks()[place.block].space;
+      EquationUnknown equations{
+          unknown.name, unknown.components, unknown.role, unknown.near_nullspace, unknown.scale, {}, {}};
+      for (int node = 0; node < space.owned_nodes(); ++node) {
+        const int first = row(*field, place.block, node, place.offset);
+        if (first < 0) continue;
+        for (int c = 0; c < place.components; ++c) equations.rows.push_back(first + c);
+        const double* x = space.position(node);
+        equations.coordinates.insert(equations.coordinates.end(), x, x + block.dimension);
+      }
+      block.count += static_cast<int>(equations.rows.size());
+      block.unknowns.push_back(std::move(equations));
     }
-    first += block.count;
-    if (!b.block->given) result.push_back(std::move(block));
+    block.first = result.empty() ? 0 : result.back().first + result.back().count;
+    if (!block.unknowns.empty()) result.push_back(std::move(block));
   }
   return result;
 }

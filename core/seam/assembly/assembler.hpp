@@ -8,6 +8,7 @@
 
 #include "seam/assembly/evaluator.hpp"
 #include "seam/assembly/node_graph.hpp"
+#include "seam/linear/equation_block.hpp"
 #include "seam/linear/matrix.hpp"
 
 namespace seam {
@@ -105,7 +106,6 @@ class Assembler {
   void add_held_block(int row_node, int column_node, const NodeBlock& block);
   void hold_prescribed(bool with_tangent);
   [[nodiscard]] bool all_finite(bool with_tangent) const;
-  /// @param product of an entry of the matrix and the size of its unknown
   /// Sum of term(entry, number) over each owned row.
   template <class Term>
   [[nodiscard]] std::vector<double> sum_rows(const PerUnknown& vector, const Term& term) const;

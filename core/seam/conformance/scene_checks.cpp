@@ -179,11 +179,14 @@ ConformanceCheck check_start(const Scene& scene, const Registry& registry) {
 
 }  // namespace
 
-Overrides conformance_overrides() {
-  return {{"solver.linear", "direct"},
-          {"output.fields", "false"},
-          {"output.restart.every", "1"},
-          {"output.restart.keep", "1000000"}};
+Overrides conformance_overrides(const PluginInfo& plugin) {
+  Overrides overrides = {
+      {"output.fields", "false"}, {"output.restart.every", "1"}, {"output.restart.keep", "1000000"}};
+  const bool brings_solvers = std::ranges::any_of(plugin.provides, [](const auto& type) {
+    return type.first == "linear_solver" || type.first == "block_inverse";
+  });
+  if (!brings_solvers) overrides.insert(overrides.begin(), {"solver.linear", "direct"});
+  return overrides;
 }
 
 std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& registry,

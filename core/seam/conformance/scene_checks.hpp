@@ -7,14 +7,15 @@
 #include <vector>
 
 #include "seam/conformance/check.hpp"
+#include "seam/plugin/plugin_host.hpp"
 #include "seam/record/results.hpp"
 #include "seam/scene/scene.hpp"
 
 namespace seam {
 
-/// What replaces a scene's own settings in the conformance kit: a direct solver and a tight tolerance, so
-/// that runs can be compared, a restart point at every step, and no field output.
-Overrides conformance_overrides();
+/// What replaces a scene's own settings in the conformance kit: a direct solver, so that runs can be compared,
+/// but where the plugin brings solvers itself; a restart point at every step, and no field output.
+Overrides conformance_overrides(const PluginInfo& plugin);
 
 /// Runs a scene and checks what must hold in any scene: its own checks, the tangent, the rewind of a failed
 /// step (to the bit), a restart in the middle (to the bit). One rank only.

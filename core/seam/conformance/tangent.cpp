@@ -59,8 +59,8 @@ double cell_size(const Space& space) {
 double scale_of(const Field& field, const Unknown& unknown) {
   const Field::ComponentRange place = field.place(unknown.name);
   const Block& block = field.blocks()[place.block];
-  if (unknown.unit == "m") return cell_size(*block.space);
-  if (unknown.unit == "rad") return 1.0;
+  if (unknown.role == UnknownRole::motion) return cell_size(*block.space);
+  if (unknown.scale > 0) return unknown.scale;
   double most = 0;
   for (std::size_t node = 0; node < static_cast<std::size_t>(block.space->nodes()); ++node)
     for (int c = 0; c < place.components; ++c)

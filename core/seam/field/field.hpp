@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seam/field/part_layout.hpp"
+#include "seam/field/unknown.hpp"
 #include "seam/space/space.hpp"
 #include "seam/state/state_store.hpp"
 
@@ -15,18 +16,6 @@ namespace seam {
 
 class CutMesh;
 class Law;
-
-/// What a physics declares of one of its unknowns.
-struct Unknown {
-  std::string name;
-  int components = 1;
-  int order = 1;       ///< of the Lagrange space: 1 or 2
-  int time_order = 0;  ///< highest rate that the physics reads: 0 (pressure), 1 (velocity), 2 (displacement)
-  std::string unit;
-  /// Nodal data instead of an unknown of the system: terms read it as any other, its values follow from
-  /// FieldSetup::give at each step.
-  bool given = false;
-};
 
 /// Nodal values of a block at one instant, as its field's store of states keeps them: [node][component], and
 /// their rates as the time scheme defines them.

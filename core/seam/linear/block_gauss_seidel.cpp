@@ -1,49 +1,53 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "seam/linear/block_gauss_seidel.hpp"
+
 #include <numeric>
 
-#include "seam/linear/preconditioner.hpp"
-
 namespace seam {
+namespace {
+
+/// The same equations with rows counted from the first of them.
+EquationBlock counted_from_zero(EquationBlock equations) {
+  for (EquationUnknown& unknown : equations.unknowns)
+    for (int& row : unknown.rows) row -= equations.first;
+  equations.first = 0;
+  return equations;
+}
+
+}  // namespace
+
 BlockGaussSeidel::BlockGaussSeidel(const Teuchos::RCP<TpetraMatrix>& system, const Matrix& a,
-                                   const std::vector<EquationBlock>& blocks, const FieldInverses& use)
+                                   const std::vector<EquationBlock>& blocks, const Maker& make)
     : system_(system), map_(system->getDomainMap()) {
-  // Smaller matrices (a rigid body's motion) are left to the factorisation.
-  constexpr std::size_t small = 800;
   for (const EquationBlock& block : blocks) {
+    Part& part = parts_.emplace_back(Part{block.first, block.count, make(block)});
     std::vector<int> rows(block.count);
     std::iota(rows.begin(), rows.end(), block.first);
-    const Selection selection(*system, std::move(rows));
-    const std::size_t size = selection.map()->getGlobalNumElements();
-    const bool large = size > small;
-    const bool pure = block.unknowns_per_node == block.dimension || block.unknowns_per_node == 1;
-    Teuchos::RCP<TpetraOperator> inverse;
-    if (use.schur && large && block.constraints() > 0) {
-      inverse = make_simple(system, a, block, use);
-    } else if (large && use.multigrid && pure) {
-      const auto matrix = blocks.size() == 1 ? system : selection.submatrix(a, selection);
-      inverse = make_multigrid(matrix, block);
-    } else {
-      inverse = make_incomplete_lu(selection.own_submatrix(a), selection.map(), use.fill);
-    }
-    inverses_.push_back({selection, inverse});
+    part.inverse->build(blocks.size() == 1 ? a : Selection(*system, std::move(rows)).matrix(a),
+                        counted_from_zero(block));
   }
 }
 
 void BlockGaussSeidel::apply(const TpetraVector& x, TpetraVector& y, Teuchos::ETransp, double alpha,
                              double beta) const {
-  TpetraVector solution(getDomainMap(), x.getNumVectors()), residual(x, Teuchos::Copy);
-  for (std::size_t p = 0; p < inverses_.size(); ++p) {
-    const BlockInverse& part = inverses_[p];
-    if (p > 0) {
-      Tpetra::deep_copy(residual, x);
-      system_->apply(solution, residual, Teuchos::NO_TRANS, -1.0, 1.0);
+  TpetraVector solution(map_, 1), residual(map_, 1);
+  for (std::size_t v = 0; v < x.getNumVectors(); ++v) {
+    const TpetraVector right_side(*x.getVector(v), Teuchos::Copy);
+    Tpetra::deep_copy(residual, right_side);
+    solution.putScalar(0);
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+      const Part& part = parts_[p];
+      if (p > 0) {
+        Tpetra::deep_copy(residual, right_side);
+        system_->apply(solution, residual, Teuchos::NO_TRANS, -1.0, 1.0);
+      }
+      const auto in = residual.getData(0).view(part.first, part.count);
+      const auto out = solution.getDataNonConst(0).view(part.first, part.count);
+      part.inverse->apply({in.getRawPtr(), static_cast<std::size_t>(part.count)},
+                          {out.getRawPtr(), static_cast<std::size_t>(part.count)});
     }
-    const TpetraVector in = part.selection.gather(residual);
-    TpetraVector out(part.selection.map(), x.getNumVectors());
-    part.inverse->apply(in, out);
-    part.selection.scatter(out, solution);
+    y.getVectorNonConst(v)->update(alpha, *solution.getVector(0), beta);
   }
-  y.update(alpha, solution, beta);
 }
 
 }  // namespace seam

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "seam/base/stopwatch.hpp"
+#include "seam/linear/block_gauss_seidel.hpp"
 #include "seam/linear/gmres.hpp"
-#include "seam/linear/preconditioner.hpp"
+#include "seam/plugin/registry.hpp"
 
 namespace seam {
 
@@ -16,13 +19,14 @@ struct KrylovSolver::Preconditioner {
   int last_iterations = 0;
 };
 
-KrylovSolver::KrylovSolver(const Parameters& p)
-    : tolerance_(p.number("tolerance")),
+KrylovSolver::KrylovSolver(const Parameters& p, const Registry& registry)
+    : registry_(&registry),
+      inverse_(p.object("preconditioner")),
+      inverse_of_(p.map("fields")),
+      tolerance_(p.number("tolerance")),
       maximum_iterations_(static_cast<int>(p.integer("maximum_iterations"))),
       restart_(static_cast<int>(p.integer("restart"))),
-      keep_(p.number("keep")),
-      use_{p.text("preconditioner") != "ilu", p.text("preconditioner") == "schur",
-           static_cast<int>(p.integer("fill"))} {
+      keep_(p.number("keep")) {
   acceptable_residual_ = 100 * tolerance_;
 }
 
@@ -32,19 +36,16 @@ void KrylovSolver::forget() { preconditioner_.reset(); }
 
 Schema KrylovSolver::schema() {
   Schema s(
-      "GMRES with algebraic multigrid or incomplete factorisation per field block, for large "
-      "systems.");
+      "GMRES, preconditioned field by field (multigrid, Schur complements, incomplete factorisations), for "
+      "large systems.");
   s.number("tolerance", "Relative residual to reach").otherwise("1e-9").above(0).below(1);
   s.integer("maximum_iterations", "Iterations after which the solve has failed")
       .otherwise("1000")
       .at_least(1);
   s.integer("restart", "Size of the Krylov space").otherwise("150").at_least(2);
-  s.choice("preconditioner",
-           "Per field block: multigrid where the block suits it; the same, with a Schur complement for the "
-           "pressure of a flow; or ilu everywhere",
-           {"multigrid", "schur", "ilu"})
+  s.typed("preconditioner", "What approximates the inverse of each field's equations", "block_inverse")
       .otherwise("schur");
-  s.integer("fill", "Levels of fill-in of incomplete factorisations").otherwise("0").at_least(0).at_most(5);
+  s.typed_map("fields", "The same for single fields, by their names", "block_inverse").otherwise("{}");
   s.number(
        "keep",
        "The preconditioner is kept while iterations stay below this multiple of its first solve's; 0: never")
@@ -53,29 +54,25 @@ Schema KrylovSolver::schema() {
   return s;
 }
 
+std::unique_ptr<BlockInverse> KrylovSolver::make_inverse(const EquationBlock& block) const {
+  const auto own = std::ranges::find(inverse_of_, block.field, &std::pair<std::string, Parameters>::first);
+  return registry_->create<BlockInverse>("block_inverse", own == inverse_of_.end() ? inverse_ : own->second);
+}
+
+void KrylovSolver::require_fields(const std::vector<EquationBlock>& blocks) const {
+  for (const auto& [name, parameters] : inverse_of_)
+    if (std::ranges::find(blocks, name, &EquationBlock::field) == blocks.end())
+      throw Error(parameters.where(),
+                  fmt::format("there is no field '{}' whose equations it could invert", name));
+}
+
 bool KrylovSolver::worth_keeping(const Matrix& a) const {
   return preconditioner_ && preconditioner_->pattern_version == a.pattern_version &&
          preconditioner_->last_iterations <= keep_ * preconditioner_->first_iterations;
 }
 
-namespace {
-
-/// What a block means is told by its components, as long as a field has all of its unknowns in one: those of
-/// another order stand in a block of their own, a pressure without the velocity that it belongs to.
-void refuse_mixed_orders(const std::vector<EquationBlock>& blocks) {
-  for (std::size_t k = 1; k < blocks.size(); ++k)
-    if (blocks[k].field == blocks[k - 1].field)
-      throw Error(fmt::format(
-          "field '{}' has unknowns of several orders, which `linear: krylov` has no preconditioner for; take "
-          "`linear: direct`, or unknowns of one order",
-          blocks[k].field));
-}
-
-}  // namespace
-
 void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,
                               const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
-  refuse_mixed_orders(blocks);
   try {
     solve_preconditioned(a, blocks, b, x, report);
   } catch (const Error&) {
@@ -99,7 +96,9 @@ void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<Equat
   const auto matrix = tpetra_view(a);
   if (report.new_factorisation) {
     preconditioner_.reset();  // two of them need never be in memory together
-    auto inverse = Teuchos::rcp(new BlockGaussSeidel(matrix, a, blocks, use_));
+    require_fields(blocks);
+    auto inverse = Teuchos::rcp(new BlockGaussSeidel(
+        matrix, a, blocks, [&](const EquationBlock& block) { return make_inverse(block); }));
     preconditioner_ = std::make_unique<Preconditioner>(Preconditioner{inverse, a.pattern_version});
   } else {
     preconditioner_->apply->follow(matrix);
@@ -107,31 +106,11 @@ void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<Equat
   report.setup_seconds = watch.seconds();
 
   report.iterations =
-      gmres(matrix, preconditioner_->apply, b, x, {tolerance_, maximum_iterations_, restart_});
+      gmres(matrix, preconditioner_->apply, weights(), b, x, {tolerance_, maximum_iterations_, restart_});
   // The view would keep the matrix in memory while the next one is built.
   preconditioner_->apply->follow(Teuchos::null);
   preconditioner_->last_iterations = report.iterations;
   if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);
-}
-
-std::vector<std::vector<double>> rigid_body_modes(const EquationBlock& block) {
-  const int dim = block.dimension, size = block.unknowns_per_node, nodes = block.count / size;
-  std::vector<std::vector<double>> modes(dim == 2 ? 3 : 6, std::vector<double>(block.count, 0.0));
-  for (int n = 0; n < nodes; ++n) {
-    const double* x = &block.coordinates[static_cast<std::size_t>(n) * dim];
-    const auto at = [&](int mode, int component) -> double& { return modes[mode][n * size + component]; };
-    for (int d = 0; d < dim; ++d) at(d, d) = 1;
-    if (dim == 2) {
-      at(2, 0) = -x[1];
-      at(2, 1) = x[0];
-      continue;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-      at(3 + axis, (axis + 1) % 3) = -x[(axis + 2) % 3];
-      at(3 + axis, (axis + 2) % 3) = x[(axis + 1) % 3];
-    }
-  }
-  return modes;
 }
 
 }  // namespace seam

@@ -2,28 +2,23 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "seam/linear/block_inverse.hpp"
 #include "seam/linear/linear_solver.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/scene/schema.hpp"
 
 namespace seam {
 
-/// What approximates the inverse of a field's block.
-struct FieldInverses {
-  bool
-      multigrid;  ///< for blocks of one unknown a node or of a displacement, else an incomplete factorisation
-  bool schur;     ///< a Schur complement for blocks with constraints
-  int fill;       ///< levels of fill-in of incomplete factorisations
-};
-
-/// GMRES (Belos), preconditioned by block Gauss-Seidel over the blocks of the fields; each block by
-/// smoothed aggregation (MueLu, with the rigid body modes as near-null space where the block is a vector) or
-/// by incomplete factorisation (Ifpack2), those of a flow also by SIMPLE. The preconditioner is kept while
-/// iteration counts stay low.
+/// GMRES (Belos), preconditioned by block Gauss-Seidel over the fields, each by a block inverse (see
+/// BlockInverse). The preconditioner is kept while iteration counts stay low.
 class KrylovSolver final : public LinearSolver {
  public:
-  explicit KrylovSolver(const Parameters& parameters);
+  /// @param registry of the block inverses
+  KrylovSolver(const Parameters& parameters, const Registry& registry);
   ~KrylovSolver() override;
   KrylovSolver(const KrylovSolver&) = delete;
   KrylovSolver& operator=(const KrylovSolver&) = delete;
@@ -39,15 +34,16 @@ class KrylovSolver final : public LinearSolver {
   [[nodiscard]] bool worth_keeping(const Matrix& a) const;
   void solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
                             const std::vector<double>& b, std::vector<double>& x, SolveReport& report);
+  [[nodiscard]] std::unique_ptr<BlockInverse> make_inverse(const EquationBlock& block) const;
+  void require_fields(const std::vector<EquationBlock>& blocks) const;
+  const Registry* registry_;
+  Parameters inverse_;                                          ///< of all fields but these:
+  std::vector<std::pair<std::string, Parameters>> inverse_of_;  ///< by field
   double tolerance_;
   int maximum_iterations_;
   int restart_;
   double keep_;
-  FieldInverses use_;
   std::unique_ptr<Preconditioner> preconditioner_;
 };
-
-/// Rigid body modes of the block's nodes: 3 vectors in 2D, 6 in 3D, over the block's local rows.
-std::vector<std::vector<double>> rigid_body_modes(const EquationBlock& block);
 
 }  // namespace seam

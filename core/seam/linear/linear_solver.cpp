@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "seam/base/stopwatch.hpp"
+#include "seam/linear/block_inverse.hpp"
+#include "seam/linear/equilibration.hpp"
 #include "seam/linear/krylov_solver.hpp"
 #include "seam/linear/mumps_solver.hpp"
 #include "seam/plugin/registry.hpp"
@@ -16,16 +18,19 @@ SolveReport LinearSolver::solve(const Matrix& a, const std::vector<EquationBlock
                                 const std::vector<double>& b, std::vector<double>& x) {
   SolveReport report;
   x.assign(a.rows, 0.0);
-  const double size = norm(a.communicator, b);
-  if (size == 0.0) return report;
+  if (norm(a.communicator, b) == 0.0) return report;
+  weights_ = equation_weights(a, blocks);
   const Stopwatch watch;
   solve_into(a, blocks, b, x, report);
   report.solve_seconds = watch.seconds() - report.setup_seconds;
   // Never trust a solver's own word: some return wrong solutions without an error.
-  std::vector<double> residual;
+  std::vector<double> residual, size = b;
   multiply(a, x, residual);
-  for (int i = 0; i < a.rows; ++i) residual[i] = b[i] - residual[i];
-  report.relative_residual = norm(a.communicator, residual) / size;
+  for (int i = 0; i < a.rows; ++i) {
+    residual[i] = weights_[i] * (b[i] - residual[i]);
+    size[i] *= weights_[i];
+  }
+  report.relative_residual = norm(a.communicator, residual) / norm(a.communicator, size);
   if (!(report.relative_residual <= acceptable_residual_))
     throw SingularMatrix(
         fmt::format("the linear solve left a relative residual of {:.2e} (acceptable: {:.0e}) after {} "
@@ -47,7 +52,8 @@ void register_linear_solvers(Registry& registry) {
       [](const Parameters& p, const Registry&) { return std::make_unique<MumpsSolver>(p); });
   registry.add<LinearSolver>(
       "linear_solver", "krylov", KrylovSolver::schema(),
-      [](const Parameters& p, const Registry&) { return std::make_unique<KrylovSolver>(p); });
+      [](const Parameters& p, const Registry& all) { return std::make_unique<KrylovSolver>(p, all); });
+  register_block_inverses(registry);
 }
 
 }  // namespace seam

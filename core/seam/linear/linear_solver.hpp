@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/linear/equation_block.hpp"
 #include "seam/linear/matrix.hpp"
 
 namespace seam {
@@ -14,8 +15,9 @@ class Registry;
 
 /// What a solve took.
 struct SolveReport {
-  double relative_residual = 0;  ///< |b - A x| / |b|, computed from the matrix after the solve
-  int iterations = 0;            ///< 0 for a direct solve
+  /// |b - A x| / |b|, computed from the matrix after the solve; entries weighed, see LinearSolver::weights
+  double relative_residual = 0;
+  int iterations = 0;  ///< 0 for a direct solve
   bool new_factorisation = true;
   double setup_seconds = 0;
   double solve_seconds = 0;
@@ -29,7 +31,7 @@ class SingularMatrix : public Error {
   std::vector<long long> equations;
 };
 
-/// Solves A x = b. A type of kind "linear_solver".
+/// Solves A x = b. A type of kind "linear_solver": solve_into() solves, solve() sees whether it is true.
 class LinearSolver {
  public:
   virtual ~LinearSolver() = default;
@@ -43,8 +45,13 @@ class LinearSolver {
  protected:
   virtual void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,
                           const std::vector<double>& b, std::vector<double>& x, SolveReport& report) = 0;
+  /// [owned row]: entries of residuals are measured times these, as they have units of their own.
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
   /// A relative residual above this is an error.
   double acceptable_residual_ = 1e-6;
+
+ private:
+  std::vector<double> weights_;
 };
 
 /// y = A x. Collective. @param x, y [owned row]

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "seam/base/communicator.hpp"
@@ -46,26 +44,6 @@ struct Matrix {
   /// Replaces the arrays by zeroed ones. @param values at least `entries`
   void allocate(int row_count, std::size_t entry_count, std::size_t values);
   [[nodiscard]] std::size_t entries() const { return column.size; }
-};
-
-/// Rows that belong together, for solvers that treat them apart: one field block of the system.
-struct EquationBlock {
-  std::string field;
-  int first = 0;  ///< local row
-  int count = 0;  ///< local rows
-  int unknowns_per_node = 1;
-  /// Components of each unknown, in order: {3, 1} of a velocity and a pressure.
-  std::vector<int> unknowns = {1};
-  bool symmetric = true;            ///< nearly, so that smoothers for symmetric matrices serve
-  std::vector<double> coordinates;  ///< [local node][dimension], owned and active
-  int dimension = 2;
-
-  /// How many scalars, as a pressure, follow vectors: their equations constrain these.
-  [[nodiscard]] int constraints() const {
-    if (unknowns.front() == 1) return 0;
-    const auto last_vector = std::find_if(unknowns.rbegin(), unknowns.rend(), [](int n) { return n > 1; });
-    return static_cast<int>(last_vector - unknowns.rbegin());
-  }
 };
 
 }  // namespace seam

@@ -2,49 +2,64 @@
 // Compiled as C++17: Teuchos' validators, which MueLu includes, are not valid C++20.
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 
-#include "seam/linear/krylov_solver.hpp"
 #include "seam/linear/preconditioner.hpp"
 
 namespace seam {
 namespace {
 
-Teuchos::RCP<TpetraVector> coordinates_of(const EquationBlock& block,
-                                          const Teuchos::RCP<const TpetraMap>& rows) {
-  const int nodes = block.count / block.unknowns_per_node;
-  const auto map = Teuchos::rcp(
-      new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), nodes, 0, rows->getComm()));
-  auto result = Teuchos::rcp(new TpetraVector(map, block.dimension));
-  for (int d = 0; d < block.dimension; ++d) {
-    auto data = result->getDataNonConst(d);
-    for (int n = 0; n < nodes; ++n)
-      data[n] = block.coordinates[static_cast<std::size_t>(n) * block.dimension + d];
-  }
+/// @param vectors [vector][entry]
+Teuchos::RCP<TpetraVector> to_tpetra(const Teuchos::RCP<const TpetraMap>& map,
+                                     const std::vector<std::vector<double>>& vectors) {
+  auto result = Teuchos::rcp(new TpetraVector(map, vectors.size()));
+  for (std::size_t v = 0; v < vectors.size(); ++v)
+    std::copy(vectors[v].begin(), vectors[v].end(), result->getDataNonConst(v).begin());
   return result;
 }
 
-Teuchos::RCP<TpetraVector> near_nullspace_of(const EquationBlock& block,
-                                             const Teuchos::RCP<const TpetraMap>& rows) {
-  const auto modes = rigid_body_modes(block);
-  auto result = Teuchos::rcp(new TpetraVector(rows, modes.size()));
-  for (std::size_t m = 0; m < modes.size(); ++m) {
-    auto data = result->getDataNonConst(m);
-    std::copy(modes[m].begin(), modes[m].end(), data.begin());
-  }
-  return result;
+Teuchos::RCP<TpetraVector> coordinates_of(const EquationUnknown& unknown, int dimension,
+                                          const Teuchos::RCP<const TpetraMap>& rows) {
+  const std::size_t nodes = unknown.rows.size() / static_cast<std::size_t>(unknown.components);
+  const auto map = Teuchos::rcp(
+      new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), nodes, 0, rows->getComm()));
+  std::vector<std::vector<double>> along(dimension, std::vector<double>(nodes));
+  for (int d = 0; d < dimension; ++d)
+    for (std::size_t n = 0; n < nodes; ++n) along[d][n] = unknown.coordinates[n * dimension + d];
+  return to_tpetra(map, along);
+}
+
+/// Whether smoothers for symmetric matrices serve: of what this and other ranks own, entries and those
+/// opposite to them differ by no more than a tenth. Collective.
+bool is_nearly_symmetric(const TpetraMatrix& matrix) {
+  const auto rows = matrix.getLocalMatrixHost();
+  double squares = 0, differences = 0;
+  for (int r = 0; r < rows.numRows(); ++r)
+    for (auto k = rows.graph.row_map(r); k < rows.graph.row_map(r + 1); ++k) {
+      const int c = rows.graph.entries(k);
+      if (c >= rows.numRows() || c == r) continue;
+      double opposite = 0;
+      for (auto m = rows.graph.row_map(c); m < rows.graph.row_map(c + 1); ++m)
+        if (rows.graph.entries(m) == r) opposite = rows.values(m);
+      squares += rows.values(k) * rows.values(k);
+      differences += (rows.values(k) - opposite) * (rows.values(k) - opposite);
+    }
+  const double mine[] = {squares, differences};
+  double all[2];
+  Teuchos::reduceAll(*matrix.getComm(), Teuchos::REDUCE_SUM, 2, mine, all);
+  return all[1] <= 0.01 * all[0];
 }
 
 }  // namespace
 
 Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix,
-                                            const EquationBlock& block) {
+                                            const EquationUnknown& unknown, int dimension) {
   Teuchos::ParameterList parameters;
   parameters.set("verbosity", "none");
   parameters.set("multigrid algorithm", "sa");
-  parameters.set("number of equations", block.unknowns_per_node);
+  parameters.set("number of equations", unknown.components);
   parameters.set("max levels", 10);
   parameters.set("coarse: max size", 800);
   auto& smoother = parameters.sublist("smoother: params");
-  if (block.symmetric) {
+  if (is_nearly_symmetric(*matrix)) {
     parameters.set("smoother: type", "CHEBYSHEV");
     smoother.set("chebyshev: degree", 3);
     smoother.set("chebyshev: ratio eigenvalue", 20.0);
@@ -67,9 +82,8 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
     parameters.sublist("repartition: params").set("algorithm", "multijagged");
   }
   auto& user = parameters.sublist("user data");
-  user.set("Coordinates", coordinates_of(block, matrix->getRowMap()));
-  if (block.unknowns_per_node == block.dimension)
-    user.set("Nullspace", near_nullspace_of(block, matrix->getRowMap()));
+  user.set("Coordinates", coordinates_of(unknown, dimension, matrix->getRowMap()));
+  user.set("Nullspace", to_tpetra(matrix->getRowMap(), near_nullspace(unknown, dimension)));
   const Teuchos::RCP<TpetraOperator> as_operator = matrix;
   return MueLu::CreateTpetraPreconditioner<double, int, long long>(as_operator, parameters);
 }

@@ -230,7 +230,7 @@ bool MumpsSolver::solve_with_kept(const Matrix& a, const std::vector<double>& b,
   if (factors->known() < enough_known) return false;
   // Half as many again as are worth it: to finish is cheaper then than to begin anew.
   const GmresOptions options{kept_tolerance, 3 * keep_ / 2 + 1, 3 * keep_ / 2 + 1};
-  report.iterations = gmres(matrix, factors, b, x, options);
+  report.iterations = gmres(matrix, factors, weights(), b, x, options);
   report.new_factorisation = false;
   instance_->last_iterations = report.iterations;
   if (report.iterations < options.maximum_iterations) return true;

@@ -17,12 +17,14 @@ class Selection {
   /// The rows of this selection and the columns of another. Collective.
   /// @param a the matrix that `system` of the constructor was a view of
   [[nodiscard]] Teuchos::RCP<TpetraMatrix> submatrix(const Matrix& a, const Selection& columns) const;
+  /// Rows and columns of this selection. Collective.
+  [[nodiscard]] Matrix matrix(const Matrix& a) const;
   /// What the rows couple within this rank, as a matrix of this rank alone.
   [[nodiscard]] Teuchos::RCP<TpetraMatrix> own_submatrix(const Matrix& a) const;
-  /// What a vector has in this selection's rows. @param first row of the system with which `all` begins
-  [[nodiscard]] TpetraVector gather(const TpetraVector& all, int first = 0) const;
+  /// What a vector has in this selection's rows.
+  [[nodiscard]] TpetraVector gather(const TpetraVector& all) const;
   /// Puts a vector over this selection into a larger one.
-  void scatter(const TpetraVector& part, TpetraVector& all, int first = 0) const;
+  void scatter(const TpetraVector& part, TpetraVector& all) const;
 
  private:
   /// The entries of some rows in those columns whose number, moved by `shift`, is in [0, end).

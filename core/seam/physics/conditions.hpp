@@ -103,7 +103,9 @@ class BodyForce {
                   "a force per mass acts on something without mass: give a `" + missing + "`");
   }
   void add_unknown(std::vector<Unknown>& unknowns, int dimension, int order) const {
-    if (is_nodal()) unknowns.push_back({key_, dimension, order, 0, "m/s^2", true});
+    if (!is_nodal()) return;
+    unknowns.push_back({key_, dimension, order, 0, "m/s^2"});
+    unknowns.back().given = true;
   }
   /// Says what the unknown is, where there is one.
   void give(FieldSetup& setup) const {

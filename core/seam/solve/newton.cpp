@@ -54,7 +54,8 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
           sums[1] += std::pow(assembler.magnitude()[row + c], 2);
           if (!increment.empty()) sums[2] += std::pow(factor * increment[row + c], 2);
           const double change = std::abs(block.now.value[i] - block.old.value[i]);
-          sums[3] += std::pow(change + steady_part * std::abs(block.now.value[i]), 2);
+          const double least = steady_part * std::max(std::abs(block.now.value[i]), unknown.scale);
+          sums[3] += std::pow(change + least, 2);
           if (!rounding.empty()) sums[4] += std::pow(rounding[row + c], 2);
         }
       }
@@ -109,7 +110,7 @@ double Newton::distance(double factor) const {
   double most = 0;
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
-      if (unknown.unit != "m") continue;
+      if (unknown.role != UnknownRole::motion) continue;
       const Field::ComponentRange place = entry.field->place(unknown.name);
       const Block& block = entry.field->blocks()[place.block];
       for (int node = 0; node < block.space->owned_nodes(); ++node)

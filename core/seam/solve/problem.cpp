@@ -87,6 +87,11 @@ std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
     if (u.order < 1 || u.order > 2) wrong = fmt::format("is of order {}; there are 1 and 2", u.order);
     if (u.time_order < 0 || u.time_order > 2)
       wrong = fmt::format("has time_order {}; there are 0, 1 and 2", u.time_order);
+    if (u.near_nullspace == NearNullspace::rigid_motions && u.components != dimension)
+      wrong = fmt::format("has {} components: rigid motions have {}", u.components, dimension);
+    if (!(u.scale >= 0)) wrong = fmt::format("has the scale {}; 0 says that it has none", u.scale);
+    if (!u.name.empty() && u.name == entry.physics->displacement() && u.role != UnknownRole::motion)
+      wrong = "is the displacement of its mesh and does not say so: UnknownRole::motion";
     if (wrong.empty()) continue;
     throw PluginFault(entry.where, fmt::format("field '{}'{}: its unknown '{}' {}", entry.name,
                                                plugin_of(*entry.physics), u.name, wrong));

@@ -143,15 +143,16 @@ std::string describe_unsupported(Problem& problem, const std::vector<long long>&
   std::string text = describe_free_modes(problem, 1e-10);
   if (!text.empty() || equations.empty()) return text;
   for (const EquationBlock& block : problem.assembler().equation_blocks())
-    for (const long long equation : equations) {
-      const long long local = equation - k.first_row - block.first;
-      if (local < 0 || local >= block.count) continue;
-      const double* x =
-          &block.coordinates[static_cast<std::size_t>(local / block.unknowns_per_node) * block.dimension];
-      text += fmt::format("field '{}' has no resistance at its node at ({})\n", block.field,
-                          fmt::join(x, x + block.dimension, ", "));
-      break;
-    }
+    for (const EquationUnknown& unknown : block.unknowns)
+      for (const long long equation : equations) {
+        const auto found = std::ranges::find(unknown.rows, equation - k.first_row);
+        if (found == unknown.rows.end()) continue;
+        const auto node = (found - unknown.rows.begin()) / unknown.components;
+        const double* x = &unknown.coordinates[static_cast<std::size_t>(node) * block.dimension];
+        text += fmt::format("field '{}': nothing resists at its node at ({}) if its {} changes there\n",
+                            block.field, fmt::join(x, x + block.dimension, ", "), unknown.name);
+        break;
+      }
   for (const FieldEntry& entry : problem.fields()) text += describe_parts(entry);
   return text;
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace seam {
+
+/// What an unknown is among those of its field.
+enum class UnknownRole {
+  plain,
+  /// Its equations constrain the field's other unknowns, as those of the pressure of an incompressible flow
+  /// do: of themselves they may say nothing about it.
+  constraint,
+  /// It displaces points, which positions are added to: the mesh, a body.
+  motion
+};
+
+/// Changes of an unknown that its equations hardly resist, which multigrid has to know.
+enum class NearNullspace {
+  constants,      ///< of each component
+  rigid_motions,  ///< of a vector as long as the mesh has dimensions: translations and rotations
+};
+
+/// What a physics declares of one of its unknowns.
+struct Unknown {
+  std::string name;
+  int components = 1;
+  int order = 1;       ///< of the Lagrange space: 1 or 2
+  int time_order = 0;  ///< highest rate that the physics reads: 0 (pressure), 1 (velocity), 2 (displacement)
+  std::string unit;
+  UnknownRole role = UnknownRole::plain;
+  NearNullspace near_nullspace = NearNullspace::constants;
+  /// Size that its values have by their nature, as 1 of an angle; 0: there is none. A change beside which
+  /// this is large counts as none, and equations are weighed by it. Of what displaces points it is at least
+  /// the size of a cell.
+  double scale = 0;
+  /// Nodal data instead of an unknown of the system: terms read it as any other, its values follow from
+  /// FieldSetup::give at each step.
+  bool given = false;
+};
+
+}  // namespace seam

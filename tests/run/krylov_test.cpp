@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What the direct solver solves, the iterative one solves as well, or says by name what it cannot.
+#include <sstream>
+
+#include "cli/run_command.hpp"
+#include "series.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+const std::string tight = "--set 'solver.linear={type: krylov, tolerance: 1e-9}' ";
+
+/// The series of a scene of configs/.
+std::string series(const std::string& scene, const std::string& options, const std::string& before = "") {
+  const Folder folder;
+  const Result done =
+      seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
+               (folder.path / "out").string() +
+               " --set output.fields=false --set 'checks=[]' --set 'output.statistics={}' " + options,
+           before);
+  INFO(done.output);
+  REQUIRE(done.code == 0);
+  return folder.read("out/series.csv");
+}
+
+/// Values in the last row of `csv` under these names.
+void agree(const std::string& scene, const std::string& options, std::initializer_list<const char*> names) {
+  const std::string direct = series(scene, options), iterative = series(scene, tight + options);
+  CAPTURE(scene);
+  for (const std::string name : names) {
+    CAPTURE(name);
+    const double expected = column(direct, name).back(), found = column(iterative, name).back();
+    CHECK(found != 0);
+    CHECK(found == Approx(expected).epsilon(1e-6));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a pressure whose level only a body holds is found by the iterative solver") {
+  agree("fsi/released_disc", "--set time.end=0.01 --set fields.water.fix_pressure=never",
+        {"pole", "disc.strain_energy"});
+  agree("fsi/pressed_block", "--set time.end=0.03", {"pressure", "block.volume", "block.strain_energy"});
+}
+
+TEST_CASE("at ten thousand unknowns the iterative solver finds what the direct one does", "[study]") {
+  agree(
+      "fsi/released_disc",
+      "--set time.end=0.01 --set fields.water.fix_pressure=never --set parameters.n=60 --set parameters.m=20",
+      {"pole", "disc.strain_energy", "water.kinetic_energy"});
+  agree("fsi/pressed_block", "--set time.end=0.03 --set parameters.n=13 --set parameters.m=5",
+        {"pressure", "block.volume", "block.strain_energy"});
+  agree("solid/cook_incompressible", "--set parameters.n=32",
+        {"corner.x", "corner.y", "membrane.strain_energy"});
+  agree("poro/waves", "--set parameters.n=48", {"block.fluid_volume", "block.volume"});
+  agree("poro/waves", "--set parameters.n=24 --set parameters.order=2",
+        {"block.fluid_volume", "block.volume"});
+  agree("fluid/patch_vortices", "--set parameters.n=60 --set time.end=0.02",
+        {"patch.kinetic_energy", "patch.dissipation", "water.kinetic_energy"});
+}
+
+TEST_CASE("each field may have an inverse of its own, and one that is not there is named") {
+  const std::string scene = "fsi/released_disc", one_step = "--set time.end=0.01 ";
+  const std::string expected = series(scene, one_step);
+  const std::string mixed =
+      series(scene, one_step +
+                        "--set 'solver.linear={type: krylov, tolerance: 1e-9, fields: {water: "
+                        "{type: ilu, fill: 1}, disc: multigrid}}'");
+  CHECK(column(mixed, "pole").back() == Approx(column(expected, "pole").back()).epsilon(1e-6));
+
+  const Folder folder;
+  const Result done =
+      seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
+           (folder.path / "out").string() + " --set 'solver.linear={type: krylov, fields: {watre: ilu}}'");
+  CAPTURE(done.output);
+  CHECK(done.code != 0);
+  CHECK_THAT(done.output, Catch::Contains("there is no field 'watre'"));
+}
