@@ -13,8 +13,8 @@
 
 namespace seam {
 
-/// What replaces a scene's own settings in the conformance kit: a direct solver, so that runs can be compared,
-/// but where the plugin brings solvers itself; a restart point at every step, and no field output.
+/// What replaces a scene's own settings in the conformance kit: a direct solver, so that runs can be
+/// compared, but where the plugin brings solvers itself; a restart point at every step, and no field output.
 Overrides conformance_overrides(const PluginInfo& plugin);
 
 /// Runs a scene and checks what must hold in any scene: its own checks, the tangent, the rewind of a failed
