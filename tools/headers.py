@@ -19,7 +19,7 @@ import sys
 CORE = pathlib.Path(__file__).resolve().parent.parent / "core"
 ABI = CORE / "seam/plugin/abi.txt"
 ENTRIES = """
-    assembly/domains.hpp base/plugin_fault.hpp interface/adjoint.hpp interface/cell_constant.hpp
+    assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp interface/adjoint.hpp interface/cell_constant.hpp
     interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp physics/body_terms.hpp physics/hyperelastic.hpp
     physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
     plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp

@@ -46,7 +46,7 @@ Solved step(int cells, LinearSolver& solver) {
 }  // namespace
 
 TEST_CASE("with a Schur complement iterations do not grow with the mesh") {
-  const KrylovOptions options{1e-8, 0, 0};
+  const KrylovOptions options{1e-8, 0, 0, {}};
   KrylovSolver coarse = krylov("schur", options), fine = krylov("schur", options),
                plain = krylov("ilu", options);
   MumpsSolver direct;

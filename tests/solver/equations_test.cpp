@@ -12,6 +12,7 @@
 #include "solver/krylov.hpp"
 
 using namespace seam;
+using test::DiagonalInverse;
 
 namespace {
 
@@ -21,7 +22,8 @@ struct TwoKinds {
   Matrix matrix;
   std::vector<EquationBlock> blocks;
   /// @param row, column what the equations, and the values, of the second are multiplied by
-  explicit TwoKinds(double row = 1, double column = 1, double scale = 0) {
+  /// @param scale that the second declares @param coupling size of what either does to the other
+  explicit TwoKinds(double row = 1, double column = 1, double scale = 0, double coupling = 1) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-1, 1);
     matrix.global_rows = n;
@@ -31,8 +33,8 @@ struct TwoKinds {
       matrix.unknown.push_back(r);
       for (int c = 0; c < n; ++c) {
         matrix.column[r * n + c] = c;
-        matrix.value[r * n + c] =
-            (number(random) + (r == c ? 8 : 0)) * (r < nodes ? 1 : row) * (c < nodes ? 1 : column);
+        matrix.value[r * n + c] = (number(random) + (r == c ? 8 : 0)) * (r < nodes ? 1 : row) *
+                                  (c < nodes ? 1 : column) * ((r < nodes) == (c < nodes) ? 1 : coupling);
       }
       matrix.row_start[r + 1] = static_cast<std::size_t>(r + 1) * n;
     }
@@ -105,8 +107,8 @@ TEST_CASE("residuals are weighed alike in whatever units the unknowns are") {
   CHECK(plain == Approx(1).epsilon(0.5));
   CHECK(TwoKinds(1e6, 1).ratio() == Approx(plain / 1e6));
   CHECK(TwoKinds(1e-9, 1e4).ratio() == Approx(plain * 1e9));
-  // A size that an unknown declares is taken as its size: of that of the first the blocks speak.
-  CHECK(TwoKinds(1, 1, 100).ratio() == Approx(TwoKinds(1, 100, 1).ratio()));
+  // Where nothing couples them the size that an unknown declares says how large its equations' terms are.
+  CHECK(TwoKinds(1, 1, 100, 0).ratio() == Approx(TwoKinds(1, 1, 1, 0).ratio() / 100));
 }
 
 TEST_CASE("equations in small units are solved as well as those in large ones") {
@@ -114,9 +116,26 @@ TEST_CASE("equations in small units are solved as well as those in large ones") 
   std::vector<double> exact(TwoKinds::n, 1.0), b, x;
   for (int r = TwoKinds::nodes; r < TwoKinds::n; ++r) exact[r] = 1e6;
   multiply(system.matrix, exact, b);
-  KrylovSolver solver = test::krylov("ilu", {1e-10, 0, 0});
+  KrylovSolver solver = test::krylov("ilu", {1e-10, 0, 0, {}});
   CHECK(solver.solve(system.matrix, system.blocks, b, x).iterations > 1);
   for (int r = 0; r < TwoKinds::n; ++r) CHECK(x[r] == Approx(exact[r]).epsilon(1e-8));
+}
+
+TEST_CASE("a field's own inverse is taken for its equations, with rows counted from its first") {
+  const TwoKinds system;
+  const std::vector<double> b(TwoKinds::n, 1.0);
+  std::vector<double> x, y;
+  DiagonalInverse::built = 0;
+  KrylovSolver plain = test::krylov("ilu", {1e-10, 0, 0, {}}),
+               own = test::krylov("ilu", {1e-10, 0, 0, {{"b", "diagonal"}}});
+  const int few = plain.solve(system.matrix, system.blocks, b, x).iterations;
+  CHECK(DiagonalInverse::built == 0);
+  CHECK(own.solve(system.matrix, system.blocks, b, y).iterations > few);
+  CHECK(DiagonalInverse::built == 1);
+  for (int r = 0; r < TwoKinds::n; ++r) CHECK(y[r] == Approx(x[r]).epsilon(1e-8));
+  KrylovSolver unknown = test::krylov("ilu", {1e-10, 0, 0, {{"c", "diagonal"}}});
+  CHECK_THROWS_WITH(unknown.solve(system.matrix, system.blocks, b, y),
+                    Catch::Contains("there is no field 'c'"));
 }
 
 TEST_CASE("what a physics declares of its near-null space are motions without strain") {
@@ -168,7 +187,7 @@ TEST_CASE("quadratic velocities with linear pressures are solved iteratively as 
     return values;
   };
   MumpsSolver direct;
-  KrylovSolver iterative = test::krylov("schur", {1e-10, 0, 0});
+  KrylovSolver iterative = test::krylov("schur", {1e-10, 0, 0, {}});
   const auto expected = solved(direct), found = solved(iterative);
   for (std::size_t b = 0; b < expected.size(); ++b) {
     double size = 0, most = 0;

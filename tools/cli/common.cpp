@@ -48,6 +48,7 @@ Registry builtin_types() {
   register_cut(registry);
   register_contact(registry);
   register_bodies(registry);
+  register_constraints(registry);
   return registry;
 }
 

@@ -3,7 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "command.hpp"
 
@@ -38,10 +43,29 @@ int list() {
   return ok;
 }
 
+/// All kinds of types, and which there are of each: of the core, and of the plugins that can be used.
+int list_kinds() {
+  std::map<std::string, std::vector<std::string>> types;
+  const Registry builtin = builtin_types();
+  for (const Registry::Entry& entry : builtin.entries()) types[entry.kind].push_back(entry.name);
+  const PluginHost host = PluginHost::standard();
+  for (const PluginHost::Found& found : host.scan())
+    for (const auto& [kind, type] : found.info.provides)
+      if (found.why_not().empty()) types[kind].push_back(fmt::format("{} ({})", type, found.name));
+  for (auto& [kind, names] : types) {
+    std::ranges::sort(names);
+    fmt::print("{:<20} {}\n", kind, fmt::join(names, ", "));
+  }
+  return ok;
+}
+
 }  // namespace
 
 Command plugins_command(CLI::App& parent) {
-  return {parent.add_subcommand("plugins", "List the plugins that are found, and where"), list};
+  CLI::App* command = parent.add_subcommand("plugins", "List the plugins that are found, and where");
+  const auto kinds = std::make_shared<bool>(false);
+  command->add_flag("--kinds", *kinds, "List the kinds of types instead, and the types of each");
+  return {command, [kinds] { return *kinds ? list_kinds() : list(); }};
 }
 
 }  // namespace seam::cli

@@ -51,8 +51,8 @@ void Assembler::rebuild() {
 
 void Assembler::number_unknowns() {
   std::vector<NodeGraph::Node> nodes;
-  prescribed_.clear();
-  node_has_prescribed_.clear();
+  relation_.clear();
+  node_has_relations_.clear();
   int unknowns = 0, owned_nodes = 0, owned_unknowns = 0;
   const auto append = [&](NumberedBlock& b, int node) {
     b.node_index[node] = static_cast<int>(nodes.size());
@@ -60,10 +60,11 @@ void Assembler::number_unknowns() {
     unknowns += b.block->size;
     char any = 0;
     for (int c = 0; c < b.block->size; ++c) {
-      prescribed_.push_back(b.block->prescribed[static_cast<std::size_t>(node) * b.block->size + c]);
-      any |= prescribed_.back();
+      const char held = b.block->prescribed[static_cast<std::size_t>(node) * b.block->size + c];
+      relation_.push_back(held ? is_prescribed : is_free);
+      any |= held;
     }
-    node_has_prescribed_.push_back(any);
+    node_has_relations_.push_back(any);
   };
   for (const bool ghosts : {false, true}) {
     for (NumberedBlock& b : blocks_) {
@@ -88,13 +89,20 @@ void Assembler::number_unknowns() {
       if (b.node_index[i] >= 0) nodes[b.node_index[i]].equation = equation[i];
   }
   name_unknowns();
+  pending_.assign(unknowns, 0.0);
+  node_of_.clear();
+  first_of_node_.clear();
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    first_of_node_.push_back(nodes[n].first);
+    node_of_.insert(node_of_.end(), nodes[n].size, static_cast<int>(n));
+  }
+  number_ties();
   NodeGraph::Elements elements;
   collect_elements(elements);
   graph_.build(communicator_, std::move(nodes), owned_nodes, elements, matrix_);
   local_residual_.assign(unknowns, 0.0);
   local_magnitude_.assign(unknowns, 0.0);
   local_lift_.assign(unknowns, 0.0);
-  pending_.assign(unknowns, 0.0);
 }
 
 void Assembler::collect_elements(NodeGraph::Elements& elements) const {
@@ -107,6 +115,7 @@ void Assembler::collect_elements(NodeGraph::Elements& elements) const {
           if (const int n = blocks_[group.block_of_side_block[p]].node_index[nodes[a]]; n >= 0)
             elements.node.push_back(n);
       }
+      if (!ties_.empty()) add_tied_nodes(elements);
       elements.start.push_back(elements.node.size());
     }
   }
@@ -128,7 +137,7 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
     graph_.collect_matrix(matrix_);
     graph_.collect_vector(local_lift_);
   }
-  hold_prescribed(with_tangent);
+  hold_related(with_tangent);
   is_finite_ = !communicator_.any(!all_finite(with_tangent));
   assembly_seconds_ += watch.seconds();
 }
@@ -224,20 +233,24 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
       for (int a = 0; a < side_block.nodes; ++a)
         element_nodes_.push_back(blocks_[group.block_of_side_block[p]].node_index[nodes[a]]);
     }
-    scatter_vector(element);
+    scatter_vector(element, with_tangent);
     if (with_tangent) scatter_matrix(element);
   }
 }
 
-void Assembler::scatter_vector(const ElementEvaluator& element) {
+void Assembler::scatter_vector(const ElementEvaluator& element, bool with_tangent) {
   const int* node = element_nodes_.data();
   for (const auto& side_block : element.side_blocks())
     for (int a = 0; a < side_block.nodes; ++a, ++node) {
       if (*node < 0) continue;
       const int first = graph_.node(*node).first;
       for (int c = 0; c < side_block.components; ++c) {
-        local_residual_[first + c] += element.residual()[side_block.offset + c * side_block.stride + a];
-        local_magnitude_[first + c] += element.magnitude()[side_block.offset + c * side_block.stride + a];
+        const double residual = element.residual()[side_block.offset + c * side_block.stride + a];
+        const double magnitude = element.magnitude()[side_block.offset + c * side_block.stride + a];
+        local_residual_[first + c] += residual;
+        local_magnitude_[first + c] += magnitude;
+        if (const int tie = relation_[first + c]; tie >= 0)
+          hand_on(ties_[tie], residual, magnitude, with_tangent);
       }
     }
 }
@@ -256,8 +269,8 @@ void Assembler::scatter_matrix(const ElementEvaluator& element) {
               &element.matrix()[static_cast<std::size_t>(rows.offset + a) * size + columns.offset + b];
           const NodeBlock block{from, static_cast<std::ptrdiff_t>(rows.stride) * size, columns.stride,
                                 rows.components, columns.components};
-          if (node_has_prescribed_[*row_node] || node_has_prescribed_[*column_node])
-            add_held_block(*row_node, *column_node, block);
+          if (node_has_relations_[*row_node] || node_has_relations_[*column_node])
+            add_related_block(*row_node, *column_node, block);
           else
             add_free_block(*row_node, *column_node, block);
         }
@@ -272,70 +285,75 @@ void Assembler::add_free_block(int row_node, int column_node, const NodeBlock& b
       to[j] += block.from[i * block.row_stride + j * block.column_stride];
 }
 
-/// Rows of prescribed unknowns are left out; their columns act on the way they have still to go.
-void Assembler::add_held_block(int row_node, int column_node, const NodeBlock& block) {
-  const NodeGraph::BlockEntries at = graph_.place(row_node, column_node);
+/// Rows of prescribed unknowns are left out; their columns act on the way they have still to go. Those of
+/// tied ones go to the rows and columns of what they are tied to.
+void Assembler::add_related_block(int row_node, int column_node, const NodeBlock& block) {
   const int first_row = graph_.node(row_node).first, first_column = graph_.node(column_node).first;
-  double* to = matrix_.value.data + at.first;
-  for (int i = 0; i < block.rows; ++i, to += at.row_length) {
-    if (prescribed_[first_row + i]) continue;
+  for (int i = 0; i < block.rows; ++i)
     for (int j = 0; j < block.columns; ++j) {
-      const double entry = block.from[i * block.row_stride + j * block.column_stride];
-      if (prescribed_[first_column + j])
-        local_lift_[first_row + i] += entry * pending_[first_column + j];
+      const double value = block.from[i * block.row_stride + j * block.column_stride];
+      const int relation = relation_[first_row + i];
+      if (relation < 0)
+        add_to_row(first_row + i, value, first_column + j);
       else
-        to[j] += entry;
+        for (const Tie::To& to : ties_[relation].to)
+          add_to_row(to.to.unknown, to.handed * value, first_column + j);
     }
-  }
 }
 
-/// Prescribed unknowns keep their value: identity rows, and their residual is the force that holds them.
-void Assembler::hold_prescribed(bool with_tangent) {
+/// Prescribed and tied unknowns keep their value: identity rows, and their residual is the force that holds
+/// them.
+void Assembler::hold_related(bool with_tangent) {
   full_residual_.assign(local_residual_.begin(), local_residual_.begin() + matrix_.rows);
   magnitude_.assign(local_magnitude_.begin(), local_magnitude_.begin() + matrix_.rows);
   residual_ = full_residual_;
   right_side_.resize(matrix_.rows);
-  for (int r = 0; r < matrix_.rows; ++r)
-    right_side_[r] = prescribed_[r] ? 0.0 : -(residual_[r] + local_lift_[r]);
   for (int r = 0; r < matrix_.rows; ++r) {
-    if (!prescribed_[r]) continue;
-    residual_[r] = 0;
-    if (!with_tangent) continue;
-    for (std::size_t k = matrix_.row_start[r]; k < matrix_.row_start[r + 1]; ++k)
+    if (relation_[r] == is_free) {
+      right_side_[r] = -(residual_[r] + local_lift_[r]);
+      continue;
+    }
+    residual_[r] = right_side_[r] = 0;
+    for (std::size_t k = matrix_.row_start[r]; with_tangent && k < matrix_.row_start[r + 1]; ++k)
       if (matrix_.column[k] == r) matrix_.value[k] = 1.0;
   }
 }
 
 void Assembler::add_increment(const std::vector<double>& increment, double factor) {
+  std::vector<double> remaining = ways_of_ties();
+  for (double& way : remaining) way *= 1 - factor;
   for (NumberedBlock& b : blocks_) {
     for (int node = 0; node < b.block->space->owned_nodes(); ++node) {
       if (b.node_index[node] < 0) continue;
       const int first = graph_.node(b.node_index[node]).first;
       for (int c = 0; c < b.block->size; ++c) {
         const std::size_t i = static_cast<std::size_t>(node) * b.block->size + c;
-        const double way = prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i]
-                                                  : increment[first + c];
+        const bool prescribed = relation_[first + c] == is_prescribed;
+        const double way =
+            prescribed ? b.block->prescribed_value[i] - b.block->now.value[i] : increment[first + c];
         // The last part of the way ends exactly at the value.
-        b.block->now.value[i] = prescribed_[first + c] && factor == 1.0
-                                    ? b.block->prescribed_value[i]
-                                    : b.block->now.value[i] + factor * way;
+        b.block->now.value[i] =
+            prescribed && factor == 1.0 ? b.block->prescribed_value[i] : b.block->now.value[i] + factor * way;
       }
     }
     b.block->space->halo().update(b.block->now.value, b.block->size);
   }
+  if (has_ties_) settle_ties(remaining);
 }
 
 void Assembler::find_pending() {
   for (const NumberedBlock& b : blocks_)
     for (std::size_t node = 0; node < b.node_index.size(); ++node) {
-      if (b.node_index[node] < 0 || !node_has_prescribed_[b.node_index[node]]) continue;
+      if (b.node_index[node] < 0 || !node_has_relations_[b.node_index[node]]) continue;
       const int first = graph_.node(b.node_index[node]).first;
       for (int c = 0; c < b.block->size; ++c) {
         const std::size_t i = node * b.block->size + c;
-        pending_[first + c] =
-            prescribed_[first + c] ? b.block->prescribed_value[i] - b.block->now.value[i] : 0.0;
+        pending_[first + c] = relation_[first + c] == is_prescribed
+                                  ? b.block->prescribed_value[i] - b.block->now.value[i]
+                                  : 0.0;
       }
     }
+  for (const Tie& tie : ties_) pending_[tie.tied.unknown] = way_of(tie);
 }
 
 bool Assembler::prescribed_pending() const {

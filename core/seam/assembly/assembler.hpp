@@ -8,6 +8,7 @@
 
 #include "seam/assembly/evaluator.hpp"
 #include "seam/assembly/node_graph.hpp"
+#include "seam/assembly/ties.hpp"
 #include "seam/linear/equation_block.hpp"
 #include "seam/linear/matrix.hpp"
 
@@ -25,6 +26,14 @@ class Assembler {
   void add(const std::shared_ptr<const IntegrationDomain>& domain, const std::vector<BoundTerm>& terms,
            ElementEvaluator::Role role = ElementEvaluator::Role::integrate);
 
+  /// Ties unknowns from now on, in the place of those tied before. Collective.
+  /// @return true when what is tied to what has changed: then rebuild() has to follow
+  bool tie(std::vector<Ties::Resolved> ties);
+  /// The change of all unknowns that that of those which are not tied brings. Collective.
+  /// @param increment [owned row]
+  [[nodiscard]] std::vector<double> with_tied(std::vector<double> increment) const;
+  /// Whether an owned row's unknown is tied to others.
+  [[nodiscard]] bool is_tied(int row) const { return relation_[row] >= 0; }
   /// Numbers the active unknowns and builds the pattern. Collective.
   void rebuild();
   /// Sets residual, magnitude and (with_tangent) matrix at the present states of the fields. Collective.
@@ -50,15 +59,16 @@ class Assembler {
   [[nodiscard]] std::vector<double> largest_by_kind(const std::vector<double>& of_rows) const;
 
   [[nodiscard]] const Matrix& matrix() const { return matrix_; }
-  /// [owned row]; zero where the unknown is prescribed.
+  /// [owned row]; zero where the unknown is prescribed or tied.
   [[nodiscard]] const std::vector<double>& residual() const { return residual_; }
   /// What the linear system is to be solved for: the residual, plus the tangent's action on the way that
-  /// prescribed unknowns have still to go. So a moved boundary takes the interior along in the first
+  /// prescribed and tied unknowns have still to go. So a moved boundary takes the interior along in the first
   /// iteration.
   [[nodiscard]] const std::vector<double>& right_side() const { return right_side_; }
-  /// True when some prescribed unknown has not reached its value. Collective.
+  /// True when some prescribed or tied unknown has not reached its value. Collective.
   [[nodiscard]] bool prescribed_pending() const;
-  /// [owned row]; where an unknown is prescribed, the force that holds it.
+  /// [owned row]; where an unknown is prescribed or tied, the force that holds it. What tied unknowns hand on
+  /// is in it.
   [[nodiscard]] const std::vector<double>& full_residual() const { return full_residual_; }
   /// [owned row]; sum of the absolute contributions of all elements: what the residual's size is measured by.
   [[nodiscard]] const std::vector<double>& magnitude() const { return magnitude_; }
@@ -88,12 +98,40 @@ class Assembler {
     std::vector<int> node_index;  ///< local node -> index of NodeGraph, -1 when inactive
   };
 
+  struct LocalUnknown {
+    int block;          ///< index into blocks_
+    std::size_t state;  ///< index into the values of the block
+    int unknown;        ///< local number, -1 where it is not active
+  };
+  /// A tie of an unknown of the system, in local numbers.
+  struct Tie {
+    UnknownPlace::Key key;
+    LocalUnknown tied;
+    double constant;
+    struct To {
+      LocalUnknown to;
+      double coefficient, handed;
+    };
+    std::vector<To> to;
+    struct Change {
+      int row, with;
+      double derivative;
+    };
+    std::vector<Change> changes;
+  };
   void number_unknowns();
   void name_unknowns();
+  void number_ties();
+  void number_changes(const Ties::Resolved& from, Tie& tie) const;
+  [[nodiscard]] LocalUnknown find(const UnknownPlace& place) const;
+  [[nodiscard]] double value_of(const LocalUnknown& unknown) const;
+  void add_tied_nodes(NodeGraph::Elements& elements) const;
+  [[nodiscard]] double tied_value(const Tie& tie) const;
+  [[nodiscard]] double way_of(const Tie& tie) const;
   void find_pending();
   void collect_elements(NodeGraph::Elements& elements) const;
   void assemble_group(Group& group, const TimePoint& at, bool with_tangent);
-  void scatter_vector(const ElementEvaluator& element);
+  void scatter_vector(const ElementEvaluator& element, bool with_tangent);
   void scatter_matrix(const ElementEvaluator& element);
   /// The part of an element matrix that belongs to a pair of nodes.
   struct NodeBlock {
@@ -103,8 +141,20 @@ class Assembler {
     int rows, columns;
   };
   void add_free_block(int row_node, int column_node, const NodeBlock& block);
-  void add_held_block(int row_node, int column_node, const NodeBlock& block);
-  void hold_prescribed(bool with_tangent);
+  void add_related_block(int row_node, int column_node, const NodeBlock& block);
+  void add_to_row(int row, double entry, int column);
+  void hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent);
+  void hold_related(bool with_tangent);
+  [[nodiscard]] std::vector<double> ways_of_ties() const;
+  void settle_ties(const std::vector<double>& remaining);
+  /// Position of an entry among the values of the matrix.
+  [[nodiscard]] double& value_at(int row, int column) {
+    const int row_node = node_of_[row], column_node = node_of_[column];
+    const NodeGraph::BlockEntries at = graph_.place(row_node, column_node);
+    return matrix_.value
+        .data[at.first + at.row_length * static_cast<std::size_t>(row - graph_.node(row_node).first) +
+              static_cast<std::size_t>(column - graph_.node(column_node).first)];
+  }
   [[nodiscard]] bool all_finite(bool with_tangent) const;
   /// Sum of term(entry, number) over each owned row.
   template <class Term>
@@ -116,9 +166,15 @@ class Assembler {
   std::vector<NumberedBlock> blocks_;
   NodeGraph graph_;
   Matrix matrix_;
-  std::vector<char> prescribed_;  ///< per local unknown (owned and ghost)
-  std::vector<char> node_has_prescribed_;
-  std::vector<double> pending_;  ///< per local unknown: prescribed minus present value
+  static constexpr int is_free = -1, is_prescribed = -2;
+  std::vector<int> relation_;  ///< per local unknown (owned and ghost): one of these, or an index into ties_
+  std::vector<char> node_has_relations_;
+  std::vector<double> pending_;  ///< per local unknown with a relation: how far it has still to go
+  std::vector<Ties::Resolved> resolved_;
+  std::vector<Tie> ties_;
+  std::vector<int> node_of_;                              ///< [local unknown]: node of the graph
+  std::vector<int> first_of_node_;                        ///< [node of the graph]: its first local unknown
+  bool has_ties_ = false;                                 ///< on any rank
   std::vector<double> local_residual_, local_magnitude_;  ///< owned and ghost unknowns
   std::vector<double> local_lift_;  ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "seam/base/plugin_fault.hpp"
+#include "seam/conformance/constraints.hpp"
 #include "seam/conformance/tangent.hpp"
 #include "seam/record/evaluate.hpp"
 #include "seam/run/simulation.hpp"
@@ -216,8 +217,12 @@ std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& re
       checks.push_back({"restart", ConformanceCheck::Outcome::skipped, "the scene takes one step only"});
     begin("rewind of a failed step");
     checks.push_back(check_rewind(half.session()));
+    const TimePoint at = step_from(half.session().stepper(), time);
+    begin("ties of unknowns");
+    const auto ties = check_constraints(half.problem(), at);
+    checks.insert(checks.end(), ties.begin(), ties.end());
     begin("tangents");
-    const auto tangents = check_tangents(half.problem(), step_from(half.session().stepper(), time));
+    const auto tangents = check_tangents(half.problem(), at);
     checks.insert(checks.end(), tangents.begin(), tangents.end());
   } catch (...) {
     checks.push_back(conformance_check(doing, false, text_of_exception()));

@@ -126,6 +126,15 @@ class Field {
     return cell_nodes(*blocks_[block].space, cell, part);
   }
 
+  /// Says that nodes of a block are one and the same though no cell has two of them, as where what is around
+  /// is periodic.
+  /// @param groups of global numbers, the same on all ranks
+  void join(int block, std::vector<std::vector<int>> groups) { joined_[block] = std::move(groups); }
+  /// Null where no nodes of the block are.
+  [[nodiscard]] const std::vector<std::vector<int>>* joined(int block) const {
+    const auto found = joined_.find(block);
+    return found == joined_.end() ? nullptr : &found->second;
+  }
   /// Collective. Makes nodes of other ranks' cells known here, for an interface (see Space::add_foreign).
   void add_foreign(int block, const std::vector<Space::ForeignNode>& nodes);
 
@@ -168,6 +177,7 @@ class Field {
   int regions_ = 1;
   std::vector<int> region_of_cell_;
   std::vector<Block> blocks_;
+  std::map<int, std::vector<std::vector<int>>> joined_;  ///< by block
   std::vector<char> active_cells_;
   const CutMesh* cut_ = nullptr;
   bool keeps_cut_faces_ = false;

@@ -120,6 +120,7 @@ BuiltScene build_scene(const Scene& scene, const Registry& registry, const Commu
   }
   errors.throw_if_any();
   build_couplings(scene, registry, built);
+  build_constraints(scene, registry, built);
   return built;
 }
 

@@ -251,6 +251,7 @@ Schema scene_schema() {
   schema.typed_map("fields", "the physics: unknowns on a mesh", "field");
   schema.typed_map("interfaces", "where fields meet", "interface").otherwise("{}");
   schema.typed_list("coupling", "what happens where fields meet", "coupling").otherwise("[]");
+  schema.typed_list("constraints", "what ties unknowns to each other", "constraint").otherwise("[]");
   schema.object("time", "time span; without it, one static step to t = 1", time_schema()).optional();
   schema.object("solver", "how the equations are solved", solver_schema()).otherwise("{}");
   schema.object("output", "what the run writes", output_schema()).otherwise("{}");

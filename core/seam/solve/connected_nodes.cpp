@@ -18,7 +18,7 @@ ConnectedNodes::ConnectedNodes(const Field& field, int block) : field_(field), b
     // Labels travel from owners to ghosts, one rank further each time.
     std::vector<int> before = label_;
     space.halo().update(label_, 1);
-    changed = changed || before != label_;
+    changed = merge_joined() || changed || before != label_;
   }
 }
 
@@ -43,6 +43,30 @@ bool ConnectedNodes::merge() {
     label_[n] = least;
   }
   return changed;
+}
+
+/// Gives nodes that are one and the same, on whatever rank, their lowest label.
+bool ConnectedNodes::merge_joined() {
+  const std::vector<std::vector<int>>* groups = field_.joined(block_);
+  if (groups == nullptr) return false;
+  const Space& space = *field_.blocks()[block_].space;
+  const std::vector<int> before = label_;
+  struct Label {
+    std::size_t group;
+    int label;
+  };
+  std::vector<Label> own;
+  for (std::size_t g = 0; g < groups->size(); ++g)
+    for (const int global : (*groups)[g])
+      if (const int node = space.local_node(global); node >= 0 && node < space.owned_nodes())
+        own.push_back({g, label_[node]});
+  std::vector<int> lowest(groups->size(), std::numeric_limits<int>::max());
+  for (const Label& l : space.mesh().communicator().gather_all(own))
+    lowest[l.group] = std::min(lowest[l.group], l.label);
+  for (std::size_t g = 0; g < groups->size(); ++g)
+    for (const int global : (*groups)[g])
+      if (const int node = space.local_node(global); node >= 0) label_[node] = lowest[g];
+  return label_ != before;
 }
 
 std::vector<int> ConnectedNodes::parts() const {

@@ -8,7 +8,7 @@
 namespace seam {
 
 /// Labels connected nodes of a block by their lowest global number. Nodes of one active cell, and of one part
-/// of it where it is divided, are connected.
+/// of it where it is divided, are connected, and nodes that the field has joined.
 class ConnectedNodes {
  public:
   /// Collective.
@@ -19,6 +19,7 @@ class ConnectedNodes {
 
  private:
   bool merge();
+  bool merge_joined();
   const Field& field_;
   int block_;
   std::vector<int> label_;

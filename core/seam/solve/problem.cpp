@@ -157,6 +157,7 @@ void Problem::finish(double time, bool shape_derivatives) {
   for (const auto& [domain, terms] : domains_)
     assembler_->add(domain, terms, shape_derivatives ? Role::integrate : Role::integrate_at_rest);
   if (shape_derivatives) add_swept_volumes();
+  assembler_->tie(ties(time_point(time, 0, 1)));
   assembler_->rebuild();
 }
 
@@ -263,6 +264,7 @@ void Problem::initialise(double time, bool impose_prescribed) {
 }
 
 void Problem::add_initial_rates(const std::vector<double>& increment) {
+  const std::vector<double> changes = assembler_->with_tied(increment);
   for (FieldEntry& entry : fields_)
     for (std::size_t b = 0; b < entry.field->blocks().size(); ++b) {
       Block& block = entry.field->blocks()[b];
@@ -271,7 +273,7 @@ void Problem::add_initial_rates(const std::vector<double>& increment) {
           const int row = assembler_->row(*entry.field, static_cast<int>(b), node, c);
           if (row < 0) continue;
           std::vector<double>* levels[3] = {&block.now.value, &block.now.rate, &block.now.second_rate};
-          (*levels[block.time_order[c]])[static_cast<std::size_t>(node) * block.size + c] += increment[row];
+          (*levels[block.time_order[c]])[static_cast<std::size_t>(node) * block.size + c] += changes[row];
         }
       for (auto* level : {&block.now.value, &block.now.rate, &block.now.second_rate})
         block.space->halo().update(*level, block.size);
@@ -359,6 +361,20 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
   return change;
 }
 
+std::vector<Ties::Resolved> Problem::ties(const TimePoint& at) {
+  if (constraints_.empty()) return {};
+  std::vector<Field*> fields;
+  for (FieldEntry& entry : fields_) fields.push_back(entry.field.get());
+  Ties ties(fields);
+  for (const auto& [constraint, where] : constraints_) {
+    ties.set_origin(where);
+    call_plugin(
+        where, [&, &of = *constraint] { return "a constraint" + plugin_of(of); },
+        [&, &of = *constraint] { of.tie(ties, at); });
+  }
+  return ties.close();
+}
+
 SpaceChange Problem::update_spaces(const TimePoint& at) {
   // An update that is refused on its way leaves some parts updated: the next one begins from scratch.
   SpaceChange change = std::exchange(unfinished_, SpaceChange::unknowns);
@@ -369,6 +385,7 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;
+  if (!constraints_.empty() && assembler_->tie(ties(at))) change = SpaceChange::unknowns;
   if (change != SpaceChange::none) assembler_->rebuild();
   unfinished_ = SpaceChange::none;
   return change;

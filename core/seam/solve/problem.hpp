@@ -11,6 +11,7 @@
 
 #include "seam/assembly/assembler.hpp"
 #include "seam/assembly/domains.hpp"
+#include "seam/constraint/constraint.hpp"
 #include "seam/cut/field_cut.hpp"
 #include "seam/interface/interface.hpp"
 #include "seam/physics/physics.hpp"
@@ -103,6 +104,10 @@ class Problem {
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
   void add_measure(InterfaceMeasure measure) { measures_.push_back(std::move(measure)); }
   [[nodiscard]] const std::vector<InterfaceMeasure>& measures() const { return measures_; }
+  /// Ties unknowns as a constraint says, which is built. Before finish().
+  void add_constraint(std::unique_ptr<Constraint> constraint, const Location& where) {
+    constraints_.emplace_back(std::move(constraint), where);
+  }
   /// Lets the interface be found by its name in the scene.
   void name_interface(const std::string& name, std::vector<InterfacePart> parts) {
     interfaces_[name] = std::move(parts);
@@ -114,6 +119,9 @@ class Problem {
   /// values, after which the system is rebuilt. The return value must be the same on all ranks.
   using SpaceUpdate = std::function<bool(const TimePoint&)>;
   void add_space_update(SpaceUpdate update) { space_updates_.push_back(std::move(update)); }
+
+  /// What is tied to what at the present states. Collective.
+  [[nodiscard]] std::vector<Ties::Resolved> ties(const TimePoint& at);
 
   /// Restricts a field to some of its cells: terms on others are left out, and nodes that only those have
   /// carry no unknowns. Collective; rebuild the system afterwards (a SpaceUpdate returns true).
@@ -209,6 +217,7 @@ class Problem {
   std::vector<DomainTerms> domains_;
   std::map<std::string, std::vector<InterfacePart>> interfaces_;
   std::vector<InterfaceMeasure> measures_;
+  std::vector<std::pair<std::unique_ptr<Constraint>, Location>> constraints_;
   std::vector<SpaceUpdate> space_updates_;
   SpaceChange unfinished_ = SpaceChange::none;  ///< of an update of spaces that was refused
   std::unique_ptr<Assembler> assembler_;

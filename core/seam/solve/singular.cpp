@@ -68,7 +68,8 @@ std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes
     const int number = field.place(modes[m].unknown).block;
     for (int node = 0; node < block.space->owned_nodes(); ++node)
       for (int c = 0; c < block.size; ++c)
-        if (const int row = assembler.row(field, number, node, c); row >= 0)
+        // What is tied follows: its column acts through what it is tied to.
+        if (const int row = assembler.row(field, number, node, c); row >= 0 && !assembler.is_tied(row))
           vectors[m][row] = modes[m].at(field, block, node, c);
   }
   const std::vector<std::vector<double>> products = multiply(assembler.matrix(), vectors);
@@ -77,7 +78,10 @@ std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes
     const std::vector<double> left = assembler.largest_by_kind(products[m]);
     const std::vector<double> size = assembler.largest_by_kind(
         assembler.absolute_product([&](const Field& field, const Block& block, int node, int c) {
-          return modes[m].at(field, block, node, c);
+          const double change = modes[m].at(field, block, node, c);
+          if (change == 0) return change;
+          const int row = assembler.row(field, field.place(modes[m].unknown).block, node, c);
+          return row >= 0 && assembler.is_tied(row) ? 0.0 : change;
         }));
     for (std::size_t kind = 0; kind < left.size(); ++kind)
       if (size[kind] > 0) result[m] = std::max(result[m], left[kind] / size[kind]);

@@ -54,6 +54,7 @@ template <class T>
 void StateArray<T>::restore(const Saved& saved) {
   const auto& from = static_cast<const SavedLevels&>(saved).level;
   std::copy(from.begin(), from.end(), level_.begin());
+  resize();  // entities that have come since stay
 }
 
 template <class T>

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "seam/assembly/assembler.hpp"
+#include "seam/assembly/together.hpp"
+
+namespace seam {
+namespace {
+
+/// Whether the same unknowns are tied to the same ones.
+bool same_relations(const std::vector<Ties::Resolved>& a, const std::vector<Ties::Resolved>& b) {
+  return std::ranges::equal(a, b, [](const Ties::Resolved& s, const Ties::Resolved& t) {
+    return s.unknown.key() == t.unknown.key() &&
+           std::ranges::equal(
+               s.to, t.to,
+               [](const TiedTo& u, const TiedTo& v) { return u.unknown.key() == v.unknown.key(); }) &&
+           std::ranges::equal(s.changes, t.changes, [](const auto& u, const auto& v) {
+             return u.row.key() == v.row.key() && u.with.key() == v.with.key();
+           });
+  });
+}
+
+Error inactive(const Ties::Resolved& tie, const TiedTo& to) {
+  const double *x = tie.unknown.position, *y = to.unknown.position;
+  return Error(
+      fmt::format("the unknown at ({:.6g}, {:.6g}, {:.6g}) is tied to one at ({:.6g}, {:.6g}, {:.6g}) that "
+                  "is not part of "
+                  "the system, since bodies cover all cells around it",
+                  x[0], x[1], x[2], y[0], y[1], y[2]));
+}
+
+}  // namespace
+
+bool Assembler::tie(std::vector<Ties::Resolved> ties) {
+  const bool same = same_relations(ties, resolved_);
+  resolved_ = std::move(ties);
+  if (communicator_.any(!same)) return true;
+  // Coefficients may have changed.
+  std::size_t k = 0;
+  for (Tie& tie : ties_) {
+    while (resolved_[k].unknown.key() != tie.key) ++k;
+    const Ties::Resolved& from = resolved_[k];
+    tie.constant = from.constant;
+    for (std::size_t m = 0; m < tie.to.size(); ++m) {
+      tie.to[m].coefficient = from.to[m].coefficient;
+      tie.to[m].handed = from.to[m].handed;
+    }
+    number_changes(from, tie);
+  }
+  return false;
+}
+
+/// The state of an unknown, and its local number; -1 where it is not active.
+Assembler::LocalUnknown Assembler::find(const UnknownPlace& place) const {
+  const NumberedBlock& b = blocks_[place.block];
+  const int node = b.block->space->local_node(place.node);
+  const int index = node >= 0 && node < static_cast<int>(b.node_index.size()) ? b.node_index[node] : -1;
+  return {place.block, static_cast<std::size_t>(node) * b.block->size + place.component,
+          index < 0 ? -1 : first_of_node_[index] + place.component};
+}
+
+void Assembler::number_changes(const Ties::Resolved& from, Tie& tie) const {
+  tie.changes.clear();
+  for (const Ties::Resolved::Change& change : from.changes)
+    tie.changes.push_back({find(change.row).unknown, find(change.with).unknown, change.derivative});
+}
+
+/// @throws Error on all ranks where an unknown of the system is tied to one that is none
+void Assembler::number_ties() {
+  ties_.clear();
+  together(communicator_, [&] {
+    for (const Ties::Resolved& from : resolved_) {
+      Tie tie{from.unknown.key(), find(from.unknown), from.constant, {}, {}};
+      if (tie.tied.unknown < 0) continue;
+      for (const TiedTo& to : from.to) {
+        tie.to.push_back({find(to.unknown), to.coefficient, to.handed});
+        if (tie.to.back().to.unknown < 0) throw inactive(from, to);
+      }
+      number_changes(from, tie);
+      ties_.push_back(std::move(tie));
+    }
+  });
+  for (std::size_t k = 0; k < ties_.size(); ++k) {
+    relation_[ties_[k].tied.unknown] = static_cast<int>(k);
+    node_has_relations_[node_of_[ties_[k].tied.unknown]] = 1;
+  }
+  has_ties_ = communicator_.any(!ties_.empty());
+}
+
+/// Nodes that an element's contributions go to because of ties of its own ones.
+void Assembler::add_tied_nodes(NodeGraph::Elements& elements) const {
+  const std::size_t end = elements.node.size();
+  for (std::size_t k = elements.start.back(); k < end; ++k) {
+    const int node = elements.node[k];
+    if (!node_has_relations_[node]) continue;
+    for (int u = first_of_node_[node]; u < static_cast<int>(node_of_.size()) && node_of_[u] == node; ++u) {
+      if (relation_[u] < 0) continue;
+      const Tie& tie = ties_[relation_[u]];
+      for (const Tie::To& to : tie.to) elements.node.push_back(node_of_[to.to.unknown]);
+      for (const Tie::Change& change : tie.changes)
+        for (const int unknown : {change.row, change.with}) elements.node.push_back(node_of_[unknown]);
+    }
+  }
+  std::sort(elements.node.begin() + static_cast<std::ptrdiff_t>(elements.start.back()), elements.node.end());
+  elements.node.erase(std::unique(elements.node.begin() + static_cast<std::ptrdiff_t>(elements.start.back()),
+                                  elements.node.end()),
+                      elements.node.end());
+}
+
+double Assembler::value_of(const LocalUnknown& unknown) const {
+  return blocks_[unknown.block].block->now.value[unknown.state];
+}
+
+double Assembler::tied_value(const Tie& tie) const {
+  double value = tie.constant;
+  for (const Tie::To& to : tie.to) value += to.coefficient * value_of(to.to);
+  return value;
+}
+
+/// How far a tied unknown is from its value; 0 where it is rounding that keeps it away.
+double Assembler::way_of(const Tie& tie) const {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  double size = std::abs(tie.constant);
+  for (const Tie::To& to : tie.to) size += std::abs(to.coefficient * value_of(to.to));
+  const double way = tied_value(tie) - value_of(tie.tied);
+  return std::abs(way) <= rounding * size ? 0.0 : way;
+}
+
+/// Of the ties of this rank's own unknowns, zeros for others.
+std::vector<double> Assembler::ways_of_ties() const {
+  std::vector<double> ways;
+  for (const Tie& tie : ties_) ways.push_back(way_of(tie));
+  return ways;
+}
+
+/// Lets tied unknowns follow what they are tied to, all but a rest of the way.
+void Assembler::settle_ties(const std::vector<double>& remaining) {
+  for (std::size_t k = 0; k < ties_.size(); ++k)
+    if (ties_[k].tied.unknown < matrix_.rows)
+      blocks_[ties_[k].tied.block].block->now.value[ties_[k].tied.state] =
+          tied_value(ties_[k]) - remaining[k];
+  for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.value, b.block->size);
+}
+
+std::vector<double> Assembler::with_tied(std::vector<double> increment) const {
+  if (!has_ties_) return increment;
+  std::vector<std::vector<double>> changes;  // [block][unknown of a local node]
+  for (const NumberedBlock& b : blocks_) {
+    const Space& space = *b.block->space;
+    std::vector<double>& of_block =
+        changes.emplace_back(static_cast<std::size_t>(space.nodes()) * b.block->size, 0.0);
+    for (int node = 0; node < space.owned_nodes(); ++node)
+      for (int c = 0; c < b.block->size && b.node_index[node] >= 0; ++c)
+        of_block[static_cast<std::size_t>(node) * b.block->size + c] =
+            increment[graph_.node(b.node_index[node]).first + c];
+    space.halo().update(of_block, b.block->size);
+  }
+  for (const Tie& tie : ties_) {
+    if (tie.tied.unknown >= matrix_.rows) continue;
+    increment[tie.tied.unknown] = 0;
+    for (const Tie::To& to : tie.to)
+      increment[tie.tied.unknown] += to.coefficient * changes[to.to.block][to.to.state];
+  }
+  return increment;
+}
+
+/// Adds an entry of a row that is not tied: to its column, or to those of what the column's unknown is tied
+/// to.
+void Assembler::add_to_row(int row, double entry, int column) {
+  if (relation_[row] == is_prescribed) return;
+  const auto add = [&](int unknown, double value) {
+    if (relation_[unknown] == is_prescribed)
+      local_lift_[row] += value * pending_[unknown];
+    else
+      value_at(row, unknown) += value;
+  };
+  const int relation = relation_[column];
+  if (relation < 0) {
+    add(column, entry);
+    return;
+  }
+  local_lift_[row] += entry * pending_[column];
+  for (const Tie::To& to : ties_[relation].to) add(to.to.unknown, to.coefficient * entry);
+}
+
+/// Hands a tied unknown's part of the balance on to what it is tied to.
+void Assembler::hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent) {
+  for (const Tie::To& to : tie.to) {
+    local_residual_[to.to.unknown] += to.handed * residual;
+    local_magnitude_[to.to.unknown] += std::abs(to.handed) * magnitude;
+  }
+  // Its part changes with the state where the coefficients do.
+  for (const Tie::Change& change : tie.changes)
+    if (with_tangent) add_to_row(change.row, change.derivative * residual, change.with);
+}
+
+}  // namespace seam

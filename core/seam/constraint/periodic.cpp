@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "seam/base/disjoint_sets.hpp"
+#include "seam/constraint/constraint.hpp"
+#include "seam/constraint/node_selection.hpp"
+#include "seam/constraint/types.hpp"
+#include "seam/plugin/registry.hpp"
+
+namespace seam {
+namespace {
+
+/// A node as all ranks know it.
+struct SharedNode {
+  int global, owner;
+  double position[3];
+};
+
+/// What a field has on one boundary continues on another one, a translation away.
+class Periodic final : public Constraint {
+ public:
+  explicit Periodic(const Parameters& p)
+      : where_(p.where()),
+        name_(p.text("field")),
+        boundaries_(p.names("boundaries")),
+        unknowns_(p.names("unknowns")) {
+    if (boundaries_.empty() || boundaries_.size() % 2 != 0)
+      throw Error(p.where("boundaries"),
+                  fmt::format("found {} boundaries, expected pairs of opposite ones: [x_min, x_max]",
+                              boundaries_.size()));
+  }
+
+  void build(ConstraintSetup& setup) override {
+    field_ = &setup.field(name_);
+    if (field_->sets() > 1)
+      throw Error(where_,
+                  fmt::format("field '{}' keeps parts of its cells apart (`parts: separate`): which of "
+                              "them continue on the other side is not known; take it without",
+                              name_));
+    for (const std::string& boundary : boundaries_) setup.close(*field_, boundary);
+    for (std::size_t b = 0; b < field_->blocks().size(); ++b) {
+      const int block = static_cast<int>(b);
+      const std::vector<int> components = components_of(*field_, block, unknowns_);
+      if (components.empty()) continue;
+      const TiedBlock& of = blocks_.emplace_back(TiedBlock{block, components, classes_of(setup, block)});
+      std::vector<std::vector<int>> groups;
+      for (const Class& nodes : of.classes) {
+        groups.emplace_back();
+        for (const SharedNode& node : nodes) groups.back().push_back(node.global);
+      }
+      field_->join(block, std::move(groups));
+    }
+  }
+
+  void tie(Ties& ties, const TimePoint&) const override {
+    for (const TiedBlock& of : blocks_) tie_block(ties, of);
+  }
+
+ private:
+  /// Nodes that are one and the same, over all pairs of boundaries: an edge may have four of them.
+  using Class = std::vector<SharedNode>;
+  struct TiedBlock {
+    int block;
+    std::vector<int> components;
+    std::vector<Class> classes;
+  };
+
+  [[nodiscard]] std::vector<SharedNode> nodes_on(const ConstraintSetup& setup, int block,
+                                                 const std::string& boundary) const {
+    const Space& space = *field_->blocks()[block].space;
+    std::vector<SharedNode> own;
+    for (const int node : setup.boundary_nodes(*field_, block, boundary)) {
+      if (node >= space.owned_nodes()) continue;
+      SharedNode& shared = own.emplace_back(SharedNode{space.global_node(node), space.owner(node), {}});
+      std::copy_n(space.position(node), field_->mesh().dimension(), shared.position);
+    }
+    return field_->mesh().communicator().gather_all(own);
+  }
+
+  [[nodiscard]] std::vector<Class> classes_of(const ConstraintSetup& setup, int block) const {
+    std::map<int, int> number;  // of a global node
+    std::vector<SharedNode> all;
+    std::vector<std::pair<int, int>> pairs;
+    const auto number_of = [&](const SharedNode& node) {
+      const auto [found, is_new] = number.emplace(node.global, static_cast<int>(all.size()));
+      if (is_new) all.push_back(node);
+      return found->second;
+    };
+    for (std::size_t k = 0; k < boundaries_.size(); k += 2) {
+      const std::vector<SharedNode> first = nodes_on(setup, block, boundaries_[k]),
+                                    second = nodes_on(setup, block, boundaries_[k + 1]);
+      for (const auto& [a, b] : match(first, second, k))
+        pairs.emplace_back(number_of(first[a]), number_of(second[b]));
+    }
+    DisjointSets sets(static_cast<int>(all.size()));
+    for (const auto& [a, b] : pairs) sets.unite(a, b);
+    std::map<int, Class> classes;
+    for (std::size_t n = 0; n < all.size(); ++n) classes[sets.root(static_cast<int>(n))].push_back(all[n]);
+    std::vector<Class> result;
+    for (auto& [root, nodes] : classes) {
+      std::ranges::sort(nodes, {}, &SharedNode::global);
+      result.push_back(std::move(nodes));
+    }
+    return result;
+  }
+
+  /// Pairs of nodes a translation apart, by their numbers in the lists.
+  [[nodiscard]] std::vector<std::pair<int, int>> match(const std::vector<SharedNode>& first,
+                                                       const std::vector<SharedNode>& second,
+                                                       std::size_t pair) const {
+    constexpr double tolerance = 1e-8;  // of the boundaries' extent
+    const int dim = field_->mesh().dimension();
+    const auto low = [&](const std::vector<SharedNode>& nodes, int d) {
+      double least = INFINITY;
+      for (const SharedNode& node : nodes) least = std::min(least, node.position[d]);
+      return least;
+    };
+    double shift[3] = {}, extent = 0;
+    for (int d = 0; d < dim; ++d) {
+      shift[d] = low(second, d) - low(first, d);
+      for (const SharedNode& node : first) extent = std::max(extent, node.position[d] - low(first, d));
+    }
+    const auto distance = [&](const SharedNode& a, const SharedNode& b) {
+      double most = 0;
+      for (int d = 0; d < dim; ++d) most = std::max(most, std::abs(b.position[d] - a.position[d] - shift[d]));
+      return most;
+    };
+    // In the order of the coordinate along which the boundary extends most, so that partners are near in it.
+    int along = 0;
+    double longest = -1;
+    for (int d = 0; d < dim; ++d) {
+      double most = 0;
+      for (const SharedNode& node : first) most = std::max(most, node.position[d] - low(first, d));
+      if (most > longest) longest = most, along = d;
+    }
+    std::vector<int> order(second.size());
+    for (std::size_t b = 0; b < order.size(); ++b) order[b] = static_cast<int>(b);
+    std::ranges::sort(order, {}, [&](int b) { return second[b].position[along]; });
+    std::vector<std::pair<int, int>> result;
+    for (std::size_t a = 0; a < first.size(); ++a) {
+      const double wanted = first[a].position[along] + shift[along];
+      auto candidate = std::ranges::lower_bound(order, wanted - tolerance * extent, {},
+                                                [&](int b) { return second[b].position[along]; });
+      while (candidate != order.end() && second[*candidate].position[along] <= wanted + tolerance * extent &&
+             distance(first[a], second[*candidate]) > tolerance * extent)
+        ++candidate;
+      if (candidate == order.end() || distance(first[a], second[*candidate]) > tolerance * extent)
+        throw Error(
+            where_,
+            fmt::format("the node ({:.8g}) on '{}' of field '{}' has none on '{}' at the same place but for "
+                        "({:.6g}): periodic boundaries need meshes that match",
+                        fmt::join(first[a].position, first[a].position + dim, ", "), boundaries_[pair], name_,
+                        boundaries_[pair + 1], fmt::join(shift, shift + dim, ", ")));
+      result.emplace_back(static_cast<int>(a), *candidate);
+    }
+    if (first.size() != second.size())
+      throw Error(where_,
+                  fmt::format("'{}' of field '{}' has {} nodes, '{}' has {}: periodic boundaries need "
+                              "meshes that match",
+                              boundaries_[pair], name_, first.size(), boundaries_[pair + 1], second.size()));
+    return result;
+  }
+
+  /// All of a class are tied to the first that is prescribed, or else to the first that is there: bodies may
+  /// cover others.
+  void tie_block(Ties& ties, const TiedBlock& of) const {
+    const Block& block = field_->blocks()[of.block];
+    const Space& space = *block.space;
+    constexpr double absent = 0, free = 1, held = 2;
+    std::vector<double> state;  // [class][node][component]
+    for (const Class& nodes : of.classes)
+      for (const SharedNode& shared : nodes) {
+        const int node = space.local_node(shared.global);
+        const bool own = node >= 0 && node < space.owned_nodes();
+        for (const int c : of.components)
+          state.push_back(!own || block.active[node] == 0 ? absent : is_free(block, node, c) ? free : held);
+      }
+    field_->mesh().communicator().sum(state);
+    const double* at = state.data();
+    for (const Class& nodes : of.classes) {
+      for (std::size_t c = 0; c < of.components.size(); ++c) tie_class(ties, of, nodes, c, at);
+      at += nodes.size() * of.components.size();
+    }
+  }
+
+  void tie_class(Ties& ties, const TiedBlock& of, const Class& nodes, std::size_t c,
+                 const double* state) const {
+    const auto state_of = [&](std::size_t n) { return state[n * of.components.size() + c]; };
+    std::size_t master = nodes.size();
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (state_of(n) > (master == nodes.size() ? 0 : state_of(master))) master = n;
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      if (n != master && state_of(n) == 1)
+        ties.tie(place(ties, of, nodes[n], c), {{place(ties, of, nodes[master], c), 1, 1}}, 0);
+  }
+
+  [[nodiscard]] UnknownPlace place(const Ties& ties, const TiedBlock& of, const SharedNode& node,
+                                   std::size_t c) const {
+    UnknownPlace result{ties.number_of(*field_, of.block), node.global, of.components[c], node.owner, {}};
+    std::copy_n(node.position, 3, result.position);
+    return result;
+  }
+
+  Location where_;
+  std::string name_;
+  std::vector<std::string> boundaries_, unknowns_;
+  Field* field_ = nullptr;
+  std::vector<TiedBlock> blocks_;
+};
+
+}  // namespace
+
+void register_periodic(Registry& registry) {
+  Schema schema("What leaves a field at a boundary enters it at the opposite one, a translation away.");
+  schema.reference("field", "The field", "field");
+  schema.names(
+      "boundaries",
+      "Pairs of boundaries whose nodes match, one pair after the other; those that share edges in one "
+      "constraint");
+  schema.names("unknowns", "Which unknowns continue; none: all").otherwise("[]");
+  registry.add<Constraint>("constraint", "periodic", schema, [](const Parameters& p, const Registry&) {
+    return std::make_unique<Periodic>(p);
+  });
+}
+
+}  // namespace seam

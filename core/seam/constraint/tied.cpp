@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "seam/assembly/domains.hpp"
+#include "seam/assembly/remote_cells.hpp"
+#include "seam/assembly/together.hpp"
+#include "seam/constraint/constraint.hpp"
+#include "seam/constraint/node_selection.hpp"
+#include "seam/constraint/types.hpp"
+#include "seam/plugin/registry.hpp"
+
+namespace seam {
+namespace {
+
+/// The cells at a boundary, each with the box that its face lies in.
+class FaceBoxes {
+ public:
+  FaceBoxes(const MeshData& whole, const std::vector<CellFace>& faces) : dim_(whole.dimension) {
+    const CellTopology& cell = topology(whole.type);
+    const std::size_t per_face = static_cast<std::size_t>(topology(cell.face_type).nodes(whole.order));
+    for (const CellFace& face : faces) {
+      Box& box = boxes_.emplace_back(Box{face.cell, {}, {}});
+      box.low.fill(INFINITY);
+      box.high.fill(-INFINITY);
+      for (std::size_t a = 0; a < per_face; ++a) {
+        const int local = cell.face_nodes[face.face][a];
+        const int node = whole.cells[static_cast<std::size_t>(face.cell) * whole.nodes_per_cell() + local];
+        for (int d = 0; d < dim_; ++d) {
+          const double x = whole.coordinates[static_cast<std::size_t>(node) * dim_ + d];
+          box.low[d] = std::min(box.low[d], x);
+          box.high[d] = std::max(box.high[d], x);
+        }
+      }
+      double size = 0;
+      for (int d = 0; d < dim_; ++d) size = std::max(size, box.high[d] - box.low[d]);
+      // Faces of curved surfaces that two meshes approximate in different ways lie beside each other.
+      constexpr double beside = 0.1;
+      for (int d = 0; d < dim_; ++d) {
+        box.low[d] -= beside * size;
+        box.high[d] += beside * size;
+      }
+    }
+  }
+  /// Global numbers of the cells whose face may be at x.
+  [[nodiscard]] std::vector<int> near(const double* x) const {
+    std::vector<int> cells;
+    for (const Box& box : boxes_) {
+      bool inside = true;
+      for (int d = 0; d < dim_ && inside; ++d) inside = box.low[d] <= x[d] && x[d] <= box.high[d];
+      if (inside) cells.push_back(box.cell);
+    }
+    return cells;
+  }
+
+ private:
+  struct Box {
+    int cell;
+    std::array<double, 3> low, high;
+  };
+  int dim_;
+  std::vector<Box> boxes_;
+};
+
+/// How far reference coordinates lie outside of their cell.
+double outside(CellType type, int dim, const double* xi) {
+  double most = 0, sum = 0;
+  for (int d = 0; d < dim; ++d) {
+    most = std::max({most, -xi[d], xi[d] - 1});
+    sum += xi[d];
+  }
+  const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
+  return simplex ? std::max(most, sum - 1) : most;
+}
+
+/// The nodes of one boundary follow the field on another one.
+class Tied final : public Constraint {
+ public:
+  explicit Tied(const Parameters& p)
+      : where_(p.where()),
+        names_(p.names("fields")),
+        boundaries_(p.names("boundaries")),
+        unknowns_(p.names("unknowns")) {
+    if (names_.size() != 2 || boundaries_.size() != 2)
+      throw Error(
+          where_,
+          fmt::format(
+              "found {} fields and {} boundaries, expected two of each: the one whose nodes are tied, "
+              "and the one they are tied to",
+              names_.size(), boundaries_.size()));
+  }
+
+  void build(ConstraintSetup& setup) override {
+    tied_ = &setup.field(names_[0]);
+    master_ = &setup.field(names_[1]);
+    if (unknowns_.empty())
+      for (const Unknown& unknown : tied_->unknowns())
+        if (!unknown.given) unknowns_.push_back(unknown.name);
+    static_cast<void>(master_->mesh().boundary(boundaries_[1]));  // throws when there is none
+    const FaceBoxes faces(master_->mesh().whole(), master_->mesh().whole().boundaries.at(boundaries_[1]));
+    for (const std::string& unknown : unknowns_) {
+      const Field::ComponentRange from = tied_->place(unknown), to = master_->place(unknown);
+      if (from.components != to.components)
+        throw Error(where_, fmt::format("'{}' has {} components in field '{}' and {} in '{}'", unknown,
+                                        from.components, names_[0], to.components, names_[1]));
+      // Unknowns of one order have the same nodes.
+      const auto known = std::ranges::find_if(
+          pairs_, [&](const Pair& pair) { return pair.from == from.block && pair.to == to.block; });
+      Pair& pair = known != pairs_.end()
+                       ? *known
+                       : pairs_.emplace_back(find_places(setup, faces, from.block, to.block));
+      for (int c = 0; c < from.components; ++c) pair.components.emplace_back(from.offset + c, to.offset + c);
+    }
+  }
+
+  void tie(Ties& ties, const TimePoint&) const override {
+    for (const Pair& pair : pairs_) {
+      const Block& block = tied_->blocks()[pair.from];
+      for (const Place& place : pair.places)
+        for (const auto& [from, to] : pair.components) {
+          if (!is_free(block, place.node, from)) continue;
+          std::vector<TiedTo> masters;
+          for (const auto& [node, share] : place.shares)
+            masters.push_back({ties.place(*master_, pair.to, node, to), share, share});
+          ties.tie(ties.place(*tied_, pair.from, place.node, from), std::move(masters), 0);
+        }
+    }
+  }
+
+ private:
+  /// A tied node, and the nodes of the face it lies on with the values of their shape functions.
+  struct Place {
+    int node;
+    std::vector<std::pair<int, double>> shares;
+  };
+  struct Pair {
+    int from, to;  ///< blocks
+    std::vector<std::pair<int, int>> components;
+    std::vector<Place> places;
+  };
+
+  [[nodiscard]] Pair find_places(const ConstraintSetup& setup, const FaceBoxes& faces, int from,
+                                 int to) const {
+    Pair pair{from, to, {}, {}};
+    const Space& space = *tied_->blocks()[from].space;
+    std::vector<int> nodes, cells;
+    std::vector<std::size_t> end;  // of each node's candidates
+    for (const int node : setup.boundary_nodes(*tied_, from, boundaries_[0])) {
+      if (node >= space.owned_nodes()) continue;
+      nodes.push_back(node);
+      for (const int cell : faces.near(space.position(node))) cells.push_back(cell);
+      end.push_back(cells.size());
+    }
+    const std::vector<RemoteCell> candidates = fetch_cells(*master_, cells);
+    together(master_->mesh().communicator(), [&] {
+      std::size_t k = 0;
+      for (std::size_t n = 0; n < nodes.size(); ++n) {
+        Place& place = pair.places.emplace_back(Place{nodes[n], {}});
+        double least = 1e-2;
+        for (; k < end[n]; ++k) look_at(candidates[k], space.position(nodes[n]), to, least, place);
+        if (place.shares.empty()) throw nothing_there(space.position(nodes[n]));
+      }
+    });
+    return pair;
+  }
+
+  /// @param least how far the place in the best cell so far lies outside of it
+  void look_at(const RemoteCell& cell, const double* x, int block, double& least, Place& place) const {
+    const Mesh& mesh = master_->mesh();
+    ElementSide side;
+    cell.attach(side, *master_);
+    const bool simplex = mesh.type() == CellType::triangle || mesh.type() == CellType::tetrahedron;
+    std::array<double, 3> xi{};
+    xi.fill(simplex ? 1.0 / (mesh.dimension() + 1) : 0.5);
+    try {
+      invert_map(side, x, xi.data());
+    } catch (const Error&) {
+      return;  // the map of a cell bends back somewhere outside of it
+    }
+    const double distance = outside(mesh.type(), mesh.dimension(), xi.data());
+    if (!(distance < least)) return;
+    least = distance;
+    ShapeTable table;
+    tabulate(mesh.type(), master_->blocks()[block].space->order(), xi.data(), 1, false, table);
+    place.shares.clear();
+    for (int a = 0; a < table.nodes; ++a)
+      if (std::abs(table.value[a]) > 1e-10) place.shares.emplace_back(cell.nodes[block][a], table.value[a]);
+  }
+
+  [[nodiscard]] Error nothing_there(const double* x) const {
+    return {where_,
+            fmt::format("the node ({:.8g}) on '{}' of field '{}' lies on no face of '{}' of field '{}': the "
+                        "tied boundary must lie on the other one",
+                        fmt::join(x, x + tied_->mesh().dimension(), ", "), boundaries_[0], names_[0],
+                        boundaries_[1], names_[1])};
+  }
+
+  Location where_;
+  std::vector<std::string> names_, boundaries_, unknowns_;
+  Field *tied_ = nullptr, *master_ = nullptr;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace
+
+void register_tied(Registry& registry) {
+  Schema schema(
+      "The nodes of a boundary keep to the field on another one, whose mesh need not match: bonded or fitted "
+      "patches.");
+  schema.names("fields", "The field whose nodes are tied, better the finer one, and the one they are tied to")
+      .naming("field");
+  schema.names("boundaries",
+               "A boundary of the first field's mesh that lies on one of the second's, and that one");
+  schema.names("unknowns", "Which unknowns are tied; none: all of the first field").otherwise("[]");
+  registry.add<Constraint>("constraint", "tied", schema,
+                           [](const Parameters& p, const Registry&) { return std::make_unique<Tied>(p); });
+}
+
+}  // namespace seam

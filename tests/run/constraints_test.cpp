@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Scenes whose unknowns are tied to each other, against the same scenes without.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene_run.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+/// The last row of a scene of configs/.
+class Ran {
+ public:
+  explicit Ran(const std::string& scene, const std::string& options = "", const std::string& before = "") {
+    const Folder folder;
+    const Result done =
+        seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
+                 (folder.path / "out").string() + " " + options,
+             before);
+    INFO(done.output);
+    REQUIRE(done.code == 0);
+    series = folder.read("out/series.csv");
+    const std::string summary = folder.read("out/summary.json");
+    const std::size_t at = summary.find("\"that\": \"velocity.l2\"");
+    if (at != std::string::npos)
+      error = std::stod(summary.substr(summary.find_first_of("0123456789", summary.find("value", at))));
+  }
+  [[nodiscard]] double operator()(const std::string& name) const { return column(series, name).back(); }
+  std::string series;
+  double error = 0;
+};
+
+/// A box of fluid or a block, with constraints.
+std::string scene(const std::string& constraints, const std::string& grid = "cells: [4, 4]") {
+  return fmt::format(R"yaml(
+title: Two blocks
+dimension: 2
+plugins: [solid]
+meshes:
+  lower: {{grid: {{from: [0, 0], to: [1, 1], {}}}}}
+  upper: {{grid: {{from: [0, 1], to: [1, 2], cells: [4, 4]}}}}
+fields:
+  lower:
+    type: solid
+    mesh: lower
+    material: {{type: neo_hookean, young: 100, poisson: 0.3}}
+    boundary: [{{on: y_min, displacement: [0, 0]}}]
+  upper:
+    type: solid
+    mesh: upper
+    material: {{type: neo_hookean, young: 100, poisson: 0.3}}
+    boundary: [{{on: y_max, displacement: [0, 0]}}]
+constraints: [{}]
+)yaml",
+                     grid, constraints);
+}
+
+void refuses(const std::string& text, const std::vector<std::string>& words) {
+  for (const std::string& before : {std::string(), std::string("mpirun --oversubscribe -np 2")}) {
+    const Run run(text, "--quiet", before);
+    CAPTURE(before, run.done.output);
+    CHECK(run.done.code != 0);
+    for (const std::string& word : words) CHECK_THAT(run.done.output, Catch::Contains(word));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a periodic flow is the same half a period away, on all numbers of ranks") {
+  const std::string coarse = "--set parameters.n=10 --set parameters.end=0.08 --set 'checks=[]' ";
+  const Ran plain("fluid/taylor_green", coarse),
+      shifted("fluid/taylor_green", coarse + "--set parameters.shift=0.5");
+  for (const std::string c : {".x", ".y"}) {
+    CHECK(std::abs(plain("left" + c)) > 0.01);
+    CHECK(plain("left" + c) == Approx(shifted("middle" + c)).epsilon(1e-10));
+    CHECK(plain("middle" + c) == Approx(shifted("left" + c)).epsilon(1e-10));
+    CHECK(plain("left" + c) == Approx(plain("right" + c)).epsilon(1e-12));
+  }
+  CHECK(plain("water.kinetic_energy") == Approx(shifted("water.kinetic_energy")).epsilon(1e-10));
+  for (const int ranks : {2, 3}) {
+    const Ran run("fluid/taylor_green", coarse, fmt::format("mpirun --oversubscribe -np {}", ranks));
+    for (const char* name : {"left.x", "left.y", "middle.x", "middle.y"})
+      CHECK(run(name) == Approx(plain(name)).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("vortices that drift through a periodic box converge with second order", "[study]") {
+  const double coarse = Ran("fluid/taylor_green", "--set parameters.n=20").error,
+               fine = Ran("fluid/taylor_green", "--set parameters.n=40").error;
+  CAPTURE(coarse, fine);
+  CHECK(fine > 0);
+  CHECK(coarse > 3.5 * fine);
+}
+
+TEST_CASE("parts of a fluid that a periodic boundary joins have one level of the pressure", "[study]") {
+  // No flow passes the plug: along x the pressure rises with the force from one side of it to the other one.
+  for (const char* ranks : {"", "mpirun --oversubscribe -np 3"}) {
+    const Run run(R"yaml(
+title: A box that is periodic along x, parted by a plug
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [1, 1], cells: [12, 12]}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 0.1
+    body_force: [1, 0]
+    boundary: [{on: [y_min, y_max], velocity: [0, 0]}]
+interfaces: {plug: {type: cut, field: water, body: {type: box, from: [0.41, -0.2], to: [0.63, 1.2]}}}
+coupling: [{type: fluid_wall, on: plug, velocity: [0, 0]}]
+constraints: [{type: periodic, field: water, boundaries: [x_min, x_max]}]
+time: {theta: 1, end: 0.3, step: {initial: 0.1}}
+output:
+  fields: false
+  probes:
+    before: {field: water, at: [0.25, 0.5], quantity: pressure}
+    behind: {field: water, at: [0.75, 0.5], quantity: pressure}
+)yaml",
+                  "--quiet", ranks);
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    CHECK(run.series("before").back() - run.series("behind").back() == Approx(0.5).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a block between oblique planes of symmetry does as the block along the axes") {
+  const std::string loaded = "--set parameters.load=10 --set 'checks=[]' ";
+  const Ran straight("solid/turned_block", loaded + "--set parameters.angle=0");
+  for (const char* angle : {"pi/6", "-2", "3*pi/4"})
+    for (const char* ranks : {"", "mpirun --oversubscribe -np 3"}) {
+      const Ran turned("solid/turned_block", loaded + "--set parameters.angle=" + angle, ranks);
+      for (const char* name : {"along", "across", "block.strain_energy"}) {
+        CHECK(std::abs(straight(name)) > 1e-4);
+        CHECK(turned(name) == Approx(straight(name)).epsilon(1e-10));
+      }
+    }
+  Ran("solid/turned_block");
+}
+
+TEST_CASE("tied parts do as the whole") {
+  const std::string body = R"yaml(
+    type: solid
+    material: {type: neo_hookean, young: 100, poisson: 0.3}
+    density: 1
+)yaml";
+  const auto written = [&](bool parts) {
+    std::string text =
+        "title: A block\ndimension: 2\nplugins: [solid]\ntime: {theta: 0.6, end: 0.5, step: {initial: 0.1}}\n"
+        "solver: {newton: {tolerance: 1e-11}}\n";
+    text += parts ? "meshes:\n  lower: {grid: {from: [0, 0], to: [1, 1], cells: [4, 4]}}\n"
+                    "  upper: {grid: {from: [0, 1], to: [1, 2], cells: [4, 4]}}\n"
+                  : "meshes:\n  lower: {grid: {from: [0, 0], to: [1, 2], cells: [4, 8]}}\n";
+    text += "fields:\n  lower:" + body + "    mesh: lower\n    boundary: [{on: y_min, displacement: [0, 0]}" +
+            std::string(parts ? "]\n  upper:" + body + "    mesh: upper\n    boundary: [" : ", ") +
+            "{on: y_max, traction: [10*(1 + t), 5]}]\n";
+    if (parts) text += "constraints: [{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}]\n";
+    const std::string top = parts ? "upper" : "lower";
+    return text + "output:\n  fields: false\n  probes:\n    top: {field: " + top +
+           ", at: [1, 2], quantity: displacement}\n    middle: {field: " + top +
+           ", at: [0.5, 1], quantity: displacement}\n    force: {field: lower, on: y_min, quantity: "
+           "reaction}\n";
+  };
+  const Run whole(written(false), "--quiet");
+  INFO(whole.done.output);
+  REQUIRE(whole.done.code == 0);
+  for (const char* ranks : {"", "mpirun --oversubscribe -np 2", "mpirun --oversubscribe -np 3"}) {
+    const Run parts(written(true), "--quiet", ranks);
+    INFO(parts.done.output);
+    REQUIRE(parts.done.code == 0);
+    for (const char* name : {"top.x", "top.y", "middle.x", "middle.y", "force.x", "force.y"})
+      CHECK(parts.series(name).back() == Approx(whole.series(name).back()).epsilon(1e-10));
+  }
+  Ran("solid/tied_blocks");
+}
+
+TEST_CASE("constraints that cannot be are refused, with what does not fit") {
+  const std::string periodic = "{type: periodic, field: lower, boundaries: ";
+  refuses(scene(periodic + "[x_min]}"), {"found 1 boundaries", "pairs"});
+  refuses(scene(periodic + "[x_min, y_max]}"), {"on 'x_min' of field 'lower' has none on 'y_max'"});
+  refuses(scene(periodic + "[x_min, x_max]}", "cells: [4, 4], map: [x, 'y + 0.1*x*y*(1 - y)']"),
+          {"periodic boundaries need meshes that match"});
+  refuses(scene(periodic + "[x_min, x_max]}, " + periodic + "[x_min, x_max]}"),
+          {"is tied twice", "the other tie stands at"});
+  refuses(scene("{type: symmetry, field: lower, boundaries: [y_max]}",
+                "cells: [4, 4], map: [x, 'y + 0.1*x*x*y']"),
+          {"boundary 'y_max' of mesh 'lower' is not plane", "off one plane"});
+  refuses(scene("{type: symmetry, field: lower, boundaries: [roof]}"), {"roof"});
+  refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, x_max]}"),
+          {"lies on no face of 'x_max' of field 'lower'"});
+  refuses(scene("{type: tied, fields: [upper], boundaries: [y_min, y_max]}"),
+          {"found 1 fields and 2 boundaries"});
+  refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}, {type: tied, fields: "
+                "[lower, upper], "
+                "boundaries: [y_max, y_min]}"),
+          {"tied to itself in a circle"});
+}
