@@ -105,7 +105,7 @@ TEST_CASE("a geometry that does more than describe shapes is refused before gmsh
     CHECK_THAT(result.output, Contains(attack.found));
     CHECK_FALSE(fs::exists(mark));
     if (!attack.works) continue;
-    static_cast<void>(seam("check in/scene.yaml --trust-geometry --limit mesher_seconds=3"));
+    static_cast<void>(seam("check in/scene.yaml --trust-geometry --limit mesher_seconds=8"));
     CHECK(fs::exists(mark));
   }
 }
