@@ -29,6 +29,7 @@ SECONDS = 600  # of a test; one that takes longer has noticed
 CHAINS = {
     "assembly": "solver kit:solid fluid kit:cutfem_fluid kit:nitsche_fsci",
     "base": "input solver",
+    "constraint": "solver:ties_test run:constraints_test kit:solid kit:cutfem_fluid",
     "contact": "contact cut scene:contact/patch_2d scene:contact/patch_3d scene:contact/closing_notch run:passage_test "
                "fsi:contact_in_fluid_test kit:nitsche_fsci",
     "cut": "cut cut_stress run:moving_cut_test run:separate_parts_test run:pocket_test fluid kit:cutfem_fluid "

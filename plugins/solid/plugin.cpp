@@ -3,6 +3,7 @@
 
 #include "materials.hpp"
 #include "rigid_body.hpp"
+#include "rigid_surface.hpp"
 #include "solid.hpp"
 
 SEAM_PLUGIN(registry) {
@@ -32,4 +33,10 @@ SEAM_PLUGIN(registry) {
                       {Published::As::quantity, "rotation", "rad",
                        "about the centre: an angle in the plane, a vector in space"},
                       {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});
+  registry.add<Physics>(
+      "field", "rigid_surface", solid::RigidSurface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<solid::RigidSurface>(p); });
+  registry.publishes("field", "rigid_surface",
+                     {{Published::As::quantity, "displacement", "m", "of the body's points"}});
+  solid::declare_rigid(registry);
 }

@@ -11,22 +11,6 @@
 
 namespace seam {
 
-namespace {
-
-/// Sizes that the components of a block have by their nature, see Unknown. @param cell diameter
-std::vector<double> scales(const Field& field, const Block& block, double cell) {
-  std::vector<double> result(block.size, 0.0);
-  for (const Unknown& unknown : field.unknowns()) {
-    const Field::ComponentRange place = field.place(unknown.name);
-    if (&field.blocks()[place.block] != &block) continue;
-    const double scale = unknown.role == UnknownRole::motion ? std::max(unknown.scale, cell) : unknown.scale;
-    std::fill_n(result.begin() + place.offset, place.components, scale);
-  }
-  return result;
-}
-
-}  // namespace
-
 Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicator)
     : fields_(std::move(fields)), communicator_(communicator) {
   for (Field* field : fields_)
@@ -201,16 +185,26 @@ std::vector<double> Assembler::largest_by_kind(const std::vector<double>& of_row
   return largest;
 }
 
+/// Sizes that the components of a block have by their nature, see Unknown. Collective.
+std::vector<double> Assembler::scales(const NumberedBlock& b) const {
+  const Mesh& mesh = b.field->mesh();
+  double cell = 0;
+  for (int c = 0; c < mesh.owned_cells(); ++c) cell = std::max(cell, mesh.diameter(c));
+  cell = communicator_.max(cell);
+  std::vector<double> result(b.block->size, 0.0);
+  for (const Unknown& unknown : b.field->unknowns()) {
+    const Field::ComponentRange place = b.field->place(unknown.name);
+    if (&b.field->blocks()[place.block] != b.block) continue;
+    const double scale = unknown.role == UnknownRole::motion ? std::max(unknown.scale, cell) : unknown.scale;
+    std::fill_n(result.begin() + place.offset, place.components, scale);
+  }
+  return result;
+}
+
 std::vector<double> Assembler::rounding() const {
   constexpr double spacing = std::numeric_limits<double>::epsilon();
   std::map<const Block*, std::vector<double>> added;  // to the size of each component of a block
-  for (const NumberedBlock& b : blocks_) {
-    const Mesh& mesh = b.field->mesh();
-    double cell = 0;
-    for (int c = 0; c < mesh.owned_cells(); ++c) cell = std::max(cell, mesh.diameter(c));
-    cell = communicator_.max(cell);
-    added[b.block] = scales(*b.field, *b.block, cell);
-  }
+  for (const NumberedBlock& b : blocks_) added[b.block] = scales(b);
   // Roundings are as often up as down: their squares add up.
   std::vector<double> squares = sum_rows(
       [&](const Field&, const Block& block, int node, int c) {
@@ -357,8 +351,10 @@ void Assembler::find_pending() {
 }
 
 bool Assembler::prescribed_pending() const {
-  return communicator_.any(
-      std::any_of(pending_.begin(), pending_.end(), [](double way) { return way != 0.0; }));
+  bool any = ties_pending();
+  for (std::size_t u = 0; u < pending_.size() && !any; ++u)
+    any = relation_[u] == is_prescribed && pending_[u] != 0.0;
+  return communicator_.any(any);
 }
 
 int Assembler::row(const Field& field, int block, int node, int component) const {

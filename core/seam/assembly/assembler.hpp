@@ -29,6 +29,8 @@ class Assembler {
   /// Ties unknowns from now on, in the place of those tied before. Collective.
   /// @return true when what is tied to what has changed: then rebuild() has to follow
   bool tie(std::vector<Ties::Resolved> ties);
+  /// Gives tied unknowns the values, and the rates, that follow from what they are tied to. Collective.
+  void settle();
   /// The change of all unknowns that that of those which are not tied brings. Collective.
   /// @param increment [owned row]
   [[nodiscard]] std::vector<double> with_tied(std::vector<double> increment) const;
@@ -108,6 +110,7 @@ class Assembler {
     UnknownPlace::Key key;
     LocalUnknown tied;
     double constant;
+    double scale;  ///< size that its values have by nature, 0: none
     struct To {
       LocalUnknown to;
       double coefficient, handed;
@@ -127,7 +130,10 @@ class Assembler {
   [[nodiscard]] double value_of(const LocalUnknown& unknown) const;
   void add_tied_nodes(NodeGraph::Elements& elements) const;
   [[nodiscard]] double tied_value(const Tie& tie) const;
+  [[nodiscard]] double size_of(const Tie& tie) const;
   [[nodiscard]] double way_of(const Tie& tie) const;
+  [[nodiscard]] bool ties_pending() const;
+  [[nodiscard]] std::vector<double> scales(const NumberedBlock& b) const;
   void find_pending();
   void collect_elements(NodeGraph::Elements& elements) const;
   void assemble_group(Group& group, const TimePoint& at, bool with_tangent);

@@ -74,7 +74,7 @@ void Assembler::number_ties() {
   ties_.clear();
   together(communicator_, [&] {
     for (const Ties::Resolved& from : resolved_) {
-      Tie tie{from.unknown.key(), find(from.unknown), from.constant, {}, {}};
+      Tie tie{from.unknown.key(), find(from.unknown), from.constant, 0, {}, {}};
       if (tie.tied.unknown < 0) continue;
       for (const TiedTo& to : from.to) {
         tie.to.push_back({find(to.unknown), to.coefficient, to.handed});
@@ -84,11 +84,16 @@ void Assembler::number_ties() {
       ties_.push_back(std::move(tie));
     }
   });
+  has_ties_ = communicator_.any(!ties_.empty());
+  if (!has_ties_) return;
+  std::vector<std::vector<double>> scale;
+  for (const NumberedBlock& b : blocks_) scale.push_back(scales(b));
   for (std::size_t k = 0; k < ties_.size(); ++k) {
+    const LocalUnknown& tied = ties_[k].tied;
+    ties_[k].scale = scale[tied.block][tied.state % blocks_[tied.block].block->size];
     relation_[ties_[k].tied.unknown] = static_cast<int>(k);
     node_has_relations_[node_of_[ties_[k].tied.unknown]] = 1;
   }
-  has_ties_ = communicator_.any(!ties_.empty());
 }
 
 /// Nodes that an element's contributions go to because of ties of its own ones.
@@ -121,13 +126,25 @@ double Assembler::tied_value(const Tie& tie) const {
   return value;
 }
 
+/// What a tied unknown's changes are measured by: what its value is made of, or a size that it has by nature.
+double Assembler::size_of(const Tie& tie) const {
+  double size = std::max(tie.scale, std::abs(tie.constant));
+  for (const Tie::To& to : tie.to) size = std::max(size, std::abs(to.coefficient * value_of(to.to)));
+  return size;
+}
+
 /// How far a tied unknown is from its value; 0 where it is rounding that keeps it away.
 double Assembler::way_of(const Tie& tie) const {
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  double size = std::abs(tie.constant);
-  for (const Tie::To& to : tie.to) size += std::abs(to.coefficient * value_of(to.to));
   const double way = tied_value(tie) - value_of(tie.tied);
-  return std::abs(way) <= rounding * size ? 0.0 : way;
+  return std::abs(way) <= rounding * size_of(tie) ? 0.0 : way;
+}
+
+bool Assembler::ties_pending() const {
+  // Relations with coefficients that depend on the state are met as far as Newton's method takes them.
+  constexpr double enough = 1e-10;
+  return std::ranges::any_of(
+      ties_, [&](const Tie& tie) { return std::abs(pending_[tie.tied.unknown]) > enough * size_of(tie); });
 }
 
 /// Of the ties of this rank's own unknowns, zeros for others.
@@ -144,6 +161,27 @@ void Assembler::settle_ties(const std::vector<double>& remaining) {
       blocks_[ties_[k].tied.block].block->now.value[ties_[k].tied.state] =
           tied_value(ties_[k]) - remaining[k];
   for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.value, b.block->size);
+}
+
+void Assembler::settle() {
+  if (!has_ties_) return;
+  const auto rates = [&](const LocalUnknown& of, int order) -> double& {
+    NodalState& now = blocks_[of.block].block->now;
+    return (order == 1 ? now.rate : now.second_rate)[of.state];
+  };
+  for (const Tie& tie : ties_) {
+    if (tie.tied.unknown >= matrix_.rows) continue;
+    const Block& block = *blocks_[tie.tied.block].block;
+    for (int order = 1; order <= block.time_order[tie.tied.state % block.size]; ++order) {
+      double rate = 0;
+      for (const Tie::To& to : tie.to) rate += to.coefficient * rates(to.to, order);
+      rates(tie.tied, order) = rate;
+    }
+  }
+  for (NumberedBlock& b : blocks_)
+    for (auto* level : {&b.block->now.rate, &b.block->now.second_rate})
+      b.block->space->halo().update(*level, b.block->size);
+  settle_ties(std::vector<double>(ties_.size(), 0.0));
 }
 
 std::vector<double> Assembler::with_tied(std::vector<double> increment) const {

@@ -260,6 +260,10 @@ void Problem::initialise(double time, bool impose_prescribed) {
       for (int n = 0; n < block.space->nodes(); ++n) block.known[n] = block.space->set_of(n) == 0 ? 1 : 0;
       entry.field->set_layout(nullptr);
     }
+  if (!constraints_.empty() && impose_prescribed) {
+    if (assembler_->tie(ties(time_point(time, 0, 1)))) assembler_->rebuild();
+    assembler_->settle();
+  }
   state_.advance();
 }
 

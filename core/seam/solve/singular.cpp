@@ -74,7 +74,14 @@ std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes
   }
   const std::vector<std::vector<double>> products = multiply(assembler.matrix(), vectors);
   std::vector<double> result(modes.size(), 0.0);
+  const auto moves = [&](const std::vector<double>& mode) {
+    return problem.communicator().any(std::ranges::any_of(mode, [](double v) { return v != 0; }));
+  };
   for (std::size_t m = 0; m < modes.size(); ++m) {
+    if (!moves(vectors[m])) {  // all of it is tied: it is what it is tied to that may be free
+      result[m] = 1;
+      continue;
+    }
     const std::vector<double> left = assembler.largest_by_kind(products[m]);
     const std::vector<double> size = assembler.largest_by_kind(
         assembler.absolute_product([&](const Field& field, const Block& block, int node, int c) {
