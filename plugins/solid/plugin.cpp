@@ -37,6 +37,7 @@ SEAM_PLUGIN(registry) {
       "field", "rigid_surface", solid::RigidSurface::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<solid::RigidSurface>(p); });
   registry.publishes("field", "rigid_surface",
-                     {{Published::As::quantity, "displacement", "m", "of the body's points"}});
+                     {{Published::As::quantity, "displacement", "m", "of the body's points"},
+                      {Published::As::quantity, "velocity", "m/s", "its rate"}});
   solid::declare_rigid(registry);
 }

@@ -3,11 +3,13 @@
 
 #include <array>
 
+#include "quantities.hpp"
 #include "rotation.hpp"
 #include "seam/base/diagnostics.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/term/fad.hpp"
+#include "seam/term/kernel_term.hpp"
 
 namespace seam::solid {
 namespace {
@@ -107,6 +109,10 @@ Schema RigidSurface::schema() {
       .at_least(1)
       .at_most(2);
   return s;
+}
+
+void RigidSurface::build(FieldSetup& setup) const {
+  setup.add_output("velocity", make_quantity(Velocity{}), {"displacement"});
 }
 
 void declare_rigid(Registry& registry) {

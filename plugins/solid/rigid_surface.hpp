@@ -16,7 +16,7 @@ class RigidSurface final : public Physics {
   [[nodiscard]] std::vector<Unknown> unknowns(int dimension) const override {
     return {{"displacement", dimension, order_, 1, "m", UnknownRole::motion}};
   }
-  void build(FieldSetup&) const override {}
+  void build(FieldSetup& setup) const override;
   [[nodiscard]] std::string displacement() const override { return "displacement"; }
 
  private:

@@ -26,6 +26,33 @@ const std::string unchecked = "--set 'checks=[]' --set output.fields=false ";
 
 TEST_CASE("a free disc in a shear flow turns with half its rate") { series("turning_disc", ""); }
 
+TEST_CASE("the points of a body that moves at the start have its velocity from then on") {
+  const Run run(R"yaml(
+title: A block that flies and turns
+dimension: 2
+plugins: [solid]
+meshes: {block: {grid: {from: [0, 0], to: [2, 1], cells: [2, 2]}}}
+fields:
+  block: {type: rigid_body, mesh: block, density: 1, initial: {velocity: [0.3, 0], rotation_rate: [0.2]}}
+  skin: {type: rigid_surface, mesh: block}
+constraints: [{type: rigid, field: skin, body: block}]
+time: {theta: 0.5, end: 1, step: {initial: 0.05}}
+output:
+  fields: false
+  probes: {corner: {field: skin, at: [2, 1], quantity: velocity}}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  // v + omega x arm, the arm of (1, 1/2) turned by 0.2 t.
+  const std::vector<double> x = run.series("corner.x"), y = run.series("corner.y");
+  for (std::size_t k = 0; k < x.size(); ++k) {
+    const double angle = 0.2 * 0.05 * static_cast<double>(k), c = std::cos(angle), s = std::sin(angle);
+    CHECK(x[k] == Approx(0.3 - 0.2 * (s + 0.5 * c)).margin(1e-5));
+    CHECK(y[k] == Approx(0.2 * (c - 0.5 * s)).margin(1e-5));
+  }
+}
+
 TEST_CASE("so does a ball", "[study]") { series("turning_ball", "--set output.fields=false"); }
 
 TEST_CASE("a disc between walls takes Faxen's force", "[study]") {

@@ -16,10 +16,10 @@ namespace seam::test {
 class DiagonalInverse final : public BlockInverse {
  public:
   static inline int built = 0;
-  void build(const Matrix& matrix, const EquationBlock&) override {
+  void build(const Matrix& matrix, const EquationBlock& equations) override {
     ++built;
-    diagonal_.assign(matrix.rows, 1.0);
-    for (int r = 0; r < matrix.rows; ++r)
+    diagonal_.assign(matrix.rows, 0.0);  // rows that are not named are not inverted
+    for (const int r : equations.unknowns.at(0).rows)
       for (std::size_t k = matrix.row_start[r]; k < matrix.row_start[r + 1]; ++k)
         if (matrix.column[k] == r) diagonal_[r] = matrix.value[k];
   }

@@ -6,6 +6,8 @@
 
 #include "seam/conformance/tangent.hpp"
 #include "seam/constraint/constraint.hpp"
+#include "seam/plugin/registry.hpp"
+#include "seam/solve/field_builder.hpp"
 #include "solver/diffusion.hpp"
 
 using namespace seam;
@@ -173,6 +175,76 @@ TEST_CASE("a state that is rewound may have been tied to fewer nodes", "[ranks]"
   const Field& field = *problem->fields()[0].field;
   CHECK(value(field, a) == Approx(value(field, c)).epsilon(1e-12));
   problem->update_spaces(time);
+  problem->state().restore(before);
+  const Block& block = field.blocks()[0];
+  CHECK(block.now.value.size() == static_cast<std::size_t>(block.space->nodes()));
+}
+
+TEST_CASE("a step does not end before relations are met") {
+  const auto problem = problem_with([](Ties& ties, const Field& field) {
+    const double v = value(field, b);
+    const UnknownPlace to = at(ties, field, b);
+    ties.tie(at(ties, field, a), {{to, 1 + v, 1 + v}}, -v * v / 2);
+    ties.add_change(to, to, 1);
+  });
+  MumpsSolver solver;
+  Newton newton(*problem, solver, {0.1, 0.1, 25, true});  // of little ambition
+  const TimePoint time = time_point(1, 0, 1);
+  problem->begin_step(time);
+  REQUIRE(newton.solve(time).converged);
+  const Field& field = *problem->fields()[0].field;
+  CHECK(value(field, a) == Approx(value(field, b) + std::pow(value(field, b), 2) / 2).epsilon(1e-9));
+}
+
+namespace {
+
+class TwoFields final : public ConstraintSetup {
+ public:
+  explicit TwoFields(Problem& problem) : problem_(problem) {}
+  [[nodiscard]] Field& field(const std::string& name) const override { return *problem_.field(name).field; }
+  [[nodiscard]] std::vector<int> boundary_nodes(const Field& field, int block,
+                                                const std::string& boundary) const override {
+    return seam::boundary_nodes(field, block, boundary);
+  }
+  void close(const Field&, const std::string&) override {}
+
+ private:
+  Problem& problem_;
+};
+
+}  // namespace
+
+TEST_CASE("nodes are tied to the face they lie on, not to one that ends nearby", "[ranks]") {
+  Registry registry;
+  register_constraints(registry);
+  Problem problem{Communicator()};
+  for (const auto& [name, cells] : {std::pair("fine", 20), std::pair("coarse", 3)})
+    problem.add_field(name,
+                      std::make_shared<Mesh>(name, test::box(CellType::quadrilateral, cells), Communicator()),
+                      std::make_unique<test::DiffusionPhysics>(test::Options{}));
+  using Names = std::vector<std::string>;
+  Parameters p;
+  p.set_type("tied");
+  p.set("fields", {Names{"fine", "coarse"}, {}, {}, true});
+  p.set("boundaries", {Names{"x_max", "x_max"}, {}, {}, true});
+  p.set("unknowns", {Names{}, {}, {}, true});
+  auto tied = registry.create<Constraint>("constraint", p);
+  TwoFields setup(problem);
+  tied->build(setup);
+  problem.add_constraint(std::move(tied), {});
+  problem.finish();
+  problem.initialise(0);
+  for (const Ties::Resolved& tie : problem.ties(time_point(1, 0, 1))) {
+    double sum = 0, place = 0;
+    CHECK(tie.to.size() <= 2);
+    for (const TiedTo& to : tie.to) {
+      CHECK(to.coefficient > 0);
+      sum += to.coefficient;
+      place += to.coefficient * to.unknown.position[1];
+    }
+    CHECK(sum == Approx(1));
+    CHECK(place == Approx(tie.unknown.position[1]).margin(1e-12));
+  }
 }
 
 TEST_CASE("an unknown tied twice, in a circle, or prescribed is refused with its places", "[ranks]") {
