@@ -180,6 +180,32 @@ TEST_CASE("a state that is rewound may have been tied to fewer nodes", "[ranks]"
   CHECK(block.now.value.size() == static_cast<std::size_t>(block.space->nodes()));
 }
 
+TEST_CASE("what is tied to a prescribed unknown, of whatever rank, goes its way with it", "[ranks]") {
+  const double y = GENERATE(0.0, 0.5, 1.0);
+  const auto solved = [&](const Communicator& communicator) {
+    Problem problem(communicator);
+    const Field& field = problem.add_field(
+        "body", std::make_shared<Mesh>("box", test::box(CellType::quadrilateral, 6), communicator),
+        std::make_unique<test::DiffusionPhysics>(test::Options{1, 0, 0, true, 1, "2"}));
+    const auto tied = [y](Ties& ties, const Field& of) {
+      for (const auto& x : {a, b}) ties.tie(at(ties, of, x), {{at(ties, of, {0, y}), 0.5, 0.5}}, 0);
+    };
+    problem.add_constraint(std::make_unique<Said>(field, tied), {});
+    problem.finish();
+    problem.initialise(0, false);
+    const NewtonReport report = test::solve_static(problem);
+    REQUIRE(report.converged);
+    CHECK(value(field, a) == Approx(1).epsilon(1e-12));
+    CHECK(value(field, b) == Approx(1).epsilon(1e-12));
+    return report.history;
+  };
+  // Iteration by iteration as on one rank.
+  const auto alone = solved(Communicator(MPI_COMM_SELF)), together = solved(Communicator());
+  REQUIRE(alone.size() == together.size());
+  for (std::size_t k = 0; k < alone.size(); ++k)
+    CHECK(together[k].residual == Approx(alone[k].residual).epsilon(1e-6).margin(1e-12));
+}
+
 TEST_CASE("a step does not end before relations are met") {
   const auto problem = problem_with([](Ties& ties, const Field& field) {
     const double v = value(field, b);
