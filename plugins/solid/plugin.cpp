@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/plugin/plugin.hpp"
 
+#include "joint.hpp"
 #include "materials.hpp"
 #include "rigid_body.hpp"
 #include "rigid_surface.hpp"
@@ -31,7 +32,10 @@ SEAM_PLUGIN(registry) {
   registry.publishes("field", "rigid_body",
                      {{Published::As::quantity, "translation", "m", "of the centre"},
                       {Published::As::quantity, "rotation", "rad",
-                       "about the centre: an angle in the plane, a vector in space"},
+                       "an angle in the plane; in space angles about the body's own axes"},
+                      {Published::As::quantity, "orientation", "", "in space: quaternion, scalar first"},
+                      {Published::As::quantity, "angular_momentum", "kg m^2/s",
+                       "of a body with mass in space, about its centre"},
                       {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});
   registry.add<Physics>(
       "field", "rigid_surface", solid::RigidSurface::schema(),
@@ -40,4 +44,5 @@ SEAM_PLUGIN(registry) {
                      {{Published::As::quantity, "displacement", "m", "of the body's points"},
                       {Published::As::quantity, "velocity", "m/s", "its rate"}});
   solid::declare_rigid(registry);
+  solid::declare_joint(registry);
 }

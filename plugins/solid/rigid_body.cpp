@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rigid_body.hpp"
 
+#include <algorithm>
+
 #include "kernels.hpp"
 #include "rotation.hpp"
 #include "seam/physics/conditions.hpp"
@@ -9,109 +11,166 @@
 namespace seam::solid {
 namespace {
 
-using translation = Vector<0>;
-using rotation = Rotation<1>;
-const std::vector<std::string> unknown_names{"translation", "rotation"};
+/// Of a body in space, the orientation is what it was at the start of the step, turned on by how much the
+/// `rotation` has changed since: angles about the body's own axes. There is no rotation that it cannot pass.
+template <int k>
+struct OrientationOf {
+  static constexpr int index = k;
+  static constexpr int components(int) { return 4; }
+};
 
-template <class T>
-Vec<3, T> cross(const Vec<3, T>& a, const Vec<3, T>& b) {
-  return skew(a) * b;
+template <class Trial, class Rotation, class Orientation>
+auto orientation_of(const Trial& s, Rotation rotation, Orientation orientation) {
+  return turned(s.old_value(orientation), s.value(rotation) - s.old_value(rotation));
 }
 
-/// m d2x/dt2 and I d(omega)/dt + omega x I omega, in the directions of the unknowns.
-struct RigidInertia {
-  using Reads = Slots<Value<rotation>, Rate<rotation>, SecondRate<translation>, SecondRate<rotation>>;
-  using Tests = Slots<Value<translation>, Value<rotation>>;
-  double mass;                ///< kg
-  Mat<3, 3, double> inertia;  ///< about the centre, in the reference position, kg m^2
-
+/// m d2x/dt2
+struct RigidMass {
+  using translation = Vector<0>;
+  using Reads = Slots<SecondRate<translation>>;
+  using Tests = Slots<Value<translation>>;
+  double mass;  ///< kg
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     r.value(translation{}) += mass * s.second_rate(translation{});
-    if constexpr (dim == 2) {
-      r.value(rotation{}) += inertia(2, 2) * s.second_rate(rotation{});
-    } else {
-      const Vec<3, T> phi = s.value(rotation{}), rate = s.rate(rotation{});
-      const Mat<3, 3, T> tangent = rotation_tangent(phi);
-      // d(tangent)/dt along the motion, by one more derivative.
-      Vec<3, Fad<1, T>> moving;
-      for (int i = 0; i < 3; ++i) {
-        moving[i] = Fad<1, T>(phi[i]);
-        moving[i].d[0] = rate[i];
-      }
-      const auto moving_tangent = rotation_tangent(moving);
-      Mat<3, 3, T> tangent_rate;
-      for (int k = 0; k < 9; ++k) tangent_rate.c[k] = moving_tangent.c[k].d[0];
-      const Vec<3, T> omega = tangent * rate;
-      const Vec<3, T> acceleration = tangent * s.second_rate(rotation{}) + tangent_rate * rate;
-      const Mat<3, 3, T> turn = rotation_tensor(phi);
-      const Mat<3, 3, T> current = turn * (inertia * transpose(turn));
-      r.value(rotation{}) += transpose(tangent) * (current * acceleration + cross<T>(omega, current * omega));
+  }
+};
+
+/// I d2(angle)/dt2, in the plane.
+struct PlaneInertia {
+  using rotation = Rotation<0>;
+  using Reads = Slots<SecondRate<rotation>>;
+  using Tests = Slots<Value<rotation>>;
+  double inertia;  ///< about the centre, kg m^2
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    if constexpr (dim == 2) r.value(rotation{}) += inertia * s.second_rate(rotation{});
+  }
+};
+
+/// In space: the angular momentum is p = R J W, with the angular velocity W in the body's axes, and its rate
+/// the moment on the body, whose parts along these axes are the rotation's equations. With theta = 1/2 p and
+/// the energy of a free body are kept whatever the step (Simo and Wong, Int. J. Numer. Methods Eng. 31, 1991:
+/// the turn of a step is its length times the mean of W at both ends).
+struct SpaceInertia {
+  using rotation = Rotation<0>;
+  using momentum = Rotation<1>;
+  using orientation = OrientationOf<2>;
+  using Reads = Slots<Value<rotation>, OldValue<rotation>, Rate<rotation>, Value<momentum>, Rate<momentum>,
+                      OldValue<orientation>>;
+  using Tests = Slots<Value<rotation>, Value<momentum>>;
+  Mat<3, 3, double> inertia;  ///< about the centre, in the reference position, kg m^2
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    if constexpr (dim == 3) {
+      const Mat<3, 3, T> turn = rotation_tensor(orientation_of(s, rotation{}, orientation{}));
+      r.value(rotation{}) += transpose(turn) * s.rate(momentum{});
+      r.value(momentum{}) += s.value(momentum{}) - turn * (inertia * s.rate(rotation{}));
     }
   }
 };
 
-/// Springs and dashpots to the reference position, loads and weight.
-struct RigidForces {
-  using Reads = Slots<Value<translation>, Rate<translation>, Value<rotation>, Rate<rotation>>;
-  using Tests = Slots<Value<translation>, Value<rotation>>;
-  std::vector<double> stiffness, damping;           ///< per translation component, N/m, N s/m
-  double rotational_stiffness, rotational_damping;  ///< N m, N m s
-  std::vector<Expression> force, moment;            ///< N, N m; empty for none
+/// The orientation at the end of the step, for the next one.
+struct SpaceOrientation {
+  using rotation = Rotation<0>;
+  using orientation = OrientationOf<1>;
+  using Reads = Slots<Value<rotation>, OldValue<rotation>, Value<orientation>, OldValue<orientation>>;
+  using Tests = Slots<Value<orientation>>;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    if constexpr (dim == 3)
+      r.value(orientation{}) += s.value(orientation{}) - orientation_of(s, rotation{}, orientation{});
+  }
+};
 
+/// Springs and dashpots to the reference position, and a load.
+struct RigidForces {
+  using translation = Vector<0>;
+  using Reads = Slots<Value<translation>, Rate<translation>>;
+  using Tests = Slots<Value<translation>>;
+  std::vector<double> stiffness, damping;  ///< per component, N/m, N s/m
+  std::vector<Expression> force;           ///< N; empty for none
   template <int dim, class T>
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const auto at = [&](const Expression& e) { return e(x.position.c.data(), dim, x.time); };
     const Vec<dim, T> d = s.value(translation{}), v = s.rate(translation{});
     Vec<dim, T> sum;
     for (int i = 0; i < dim; ++i) {
       sum[i] = stiffness[i] * d[i] + damping[i] * v[i];
-      if (!force.empty()) sum[i] -= at(force[i]);
+      if (!force.empty()) sum[i] -= force[i](x.position.c.data(), dim, x.time);
     }
     r.value(translation{}) += sum;
+  }
+};
+
+/// What springs, dashpots and loads there are against rotation.
+struct Moment {
+  double stiffness, damping;     ///< N m, N m s
+  std::vector<Expression> load;  ///< N m; empty for none
+};
+
+struct PlaneMoments {
+  using rotation = Rotation<0>;
+  using Reads = Slots<Value<rotation>, Rate<rotation>>;
+  using Tests = Slots<Value<rotation>>;
+  Moment moment;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     if constexpr (dim == 2) {
-      T turn = rotational_stiffness * s.value(rotation{}) + rotational_damping * s.rate(rotation{});
-      if (!moment.empty()) turn -= at(moment[0]);
-      r.value(rotation{}) += turn;
-    } else {
-      const Vec<3, T> phi = s.value(rotation{});
-      const Mat<3, 3, T> tangent = rotation_tangent(phi);
-      Vec<3, T> turn = rotational_stiffness * phi;
-      Vec<3, T> spatial = rotational_damping * (tangent * s.rate(rotation{}));
-      if (!moment.empty())
-        for (int i = 0; i < 3; ++i) spatial[i] -= at(moment[i]);
-      turn += transpose(tangent) * spatial;
+      T turn = moment.stiffness * s.value(rotation{}) + moment.damping * s.rate(rotation{});
+      if (!moment.load.empty()) turn -= moment.load[0](x.position.c.data(), dim, x.time);
       r.value(rotation{}) += turn;
     }
   }
 };
 
-/// 1/2 m |v|^2 + 1/2 omega . I omega, J.
+struct SpaceMoments {
+  using rotation = Rotation<0>;
+  using orientation = OrientationOf<1>;
+  using Reads = Slots<Value<rotation>, OldValue<rotation>, Rate<rotation>, OldValue<orientation>>;
+  using Tests = Slots<Value<rotation>>;
+  Moment moment;
+  template <int dim, class T>
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    if constexpr (dim == 3) {
+      const Quaternion<T> q = orientation_of(s, rotation{}, orientation{});
+      Vec<3, T> turn = moment.damping * s.rate(rotation{});
+      // The rotation vector is the same in the body's axes and in those of space.
+      if (moment.stiffness > 0) turn += moment.stiffness * rotation_vector(q);
+      if (!moment.load.empty()) {
+        Vec<3, double> load;
+        for (int i = 0; i < 3; ++i) load[i] = moment.load[i](x.position.c.data(), dim, x.time);
+        turn -= transpose(rotation_tensor(q)) * load;
+      }
+      r.value(rotation{}) += turn;
+    }
+  }
+};
+
+/// 1/2 m |v|^2 + 1/2 W . I W, J.
 struct RigidKineticEnergy {
-  using Reads = Slots<Rate<translation>, Value<rotation>, Rate<rotation>>;
+  using translation = Vector<0>;
+  using rotation = Rotation<1>;
+  using Reads = Slots<Rate<translation>, Rate<rotation>>;
   static constexpr int values(int) { return 1; }
-  RigidInertia body;
+  double mass;
+  Mat<3, 3, double> inertia;
   template <int dim>
   void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* value) const {
-    *value = 0.5 * body.mass * dot(s.rate(translation{}), s.rate(translation{}));
-    if constexpr (dim == 2) {
-      *value += 0.5 * body.inertia(2, 2) * s.rate(rotation{}) * s.rate(rotation{});
-    } else {
-      const Vec<3, double> phi = s.value(rotation{});
-      const Vec<3, double> in_body =
-          transpose(rotation_tensor(phi)) * (rotation_tangent(phi) * s.rate(rotation{}));
-      *value += 0.5 * dot(in_body, body.inertia * in_body);
-    }
+    *value = 0.5 * mass * dot(s.rate(translation{}), s.rate(translation{}));
+    if constexpr (dim == 2)
+      *value += 0.5 * inertia(2, 2) * s.rate(rotation{}) * s.rate(rotation{});
+    else
+      *value += 0.5 * dot(s.rate(rotation{}), inertia * s.rate(rotation{}));
   }
 };
 
-RigidInertia inertia_of(const Moments& moments, double density, int dim) {
-  RigidInertia body{density * moments.volume, {}};
+Mat<3, 3, double> inertia_of(const Moments& moments, double density, int dim) {
+  Mat<3, 3, double> inertia;
   const auto& m = moments.second;
   const double trace = m[0][0] + m[1][1] + (dim == 3 ? m[2][2] : 0.0);
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) body.inertia(i, j) = density * ((i == j ? trace : 0.0) - m[i][j]);
-  return body;
+    for (int j = 0; j < 3; ++j) inertia(i, j) = density * ((i == j ? trace : 0.0) - m[i][j]);
+  return inertia;
 }
 
 }  // namespace
@@ -123,7 +182,10 @@ Schema RigidBody::schema() {
   s.vector_expression("translation", "Motion of its centre; null leaves a component free, default all free")
       .unit("m")
       .optional();
-  s.vector_expression("rotation", "Angle (2D) or rotation vector (3D) about its centre; null leaves it free")
+  s.vector_expression(
+       "rotation",
+       "Angle about its centre; in space three, about the body's own axes, of which rates add up "
+       "to the angular velocity; null leaves one free")
       .unit("rad")
       .entries(-1)
       .optional();
@@ -133,14 +195,17 @@ Schema RigidBody::schema() {
       .at_least(0);
   s.vector("stiffness", "Springs that hold the centre, per direction").unit("N/m").optional();
   s.vector("damping", "Dashpots at the centre, per direction").unit("N s/m").optional();
-  s.number("rotational_stiffness", "Spring against rotation").unit("N m").otherwise("0").at_least(0);
+  s.number("rotational_stiffness", "Spring against rotation: moment per angle; in space up to half a turn")
+      .unit("N m")
+      .otherwise("0")
+      .at_least(0);
   s.number("rotational_damping", "Dashpot against rotation").unit("N m s").otherwise("0").at_least(0);
   s.vector_expression("force", "Load at the centre").unit("N").optional();
   s.vector_expression("moment", "Load: one entry in 2D, three in 3D").unit("N m").entries(-1).optional();
   s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
   Schema initial("Motion at the start");
   initial.vector("velocity", "Velocity of the centre").unit("m/s").optional();
-  initial.vector("rotation_rate", "Rate of the rotation: one entry in 2D, three in 3D")
+  initial.vector("rotation_rate", "Angular velocity: one entry in 2D, three in 3D")
       .unit("rad/s")
       .entries(-1)
       .optional();
@@ -154,9 +219,18 @@ int RigidBody::time_order() const {
 }
 
 std::vector<Unknown> RigidBody::unknowns(int dimension) const {
-  Unknown rotation{"rotation", dimension == 2 ? 1 : 3, 1, time_order(), "rad"};
+  const int order = time_order();
+  const Unknown translation{"translation", dimension, 1, order, "m", UnknownRole::motion};
+  Unknown rotation{"rotation", dimension == 2 ? 1 : 3, 1, order, "rad"};
   rotation.scale = 1;
-  return {{"translation", dimension, 1, time_order(), "m", UnknownRole::motion}, rotation};
+  if (dimension == 2) return {translation, rotation};
+  // What has inertia in space says so by the rate of its momentum.
+  rotation.time_order = std::min(order, 1);
+  Unknown orientation{"orientation", 4, 1, 0, "", UnknownRole::derived};
+  orientation.scale = 1;
+  std::vector<Unknown> all{translation, rotation, orientation};
+  if (order == 2) all.push_back({"angular_momentum", 3, 1, 1, "kg m^2/s"});
+  return all;
 }
 
 void RigidBody::prescribe(FieldSetup& setup, const std::string& unknown) const {
@@ -174,25 +248,41 @@ void RigidBody::build(FieldSetup& setup) const {
   prescribe(setup, "translation");
   prescribe(setup, "rotation");
   const std::vector<double> none(dim, 0.0);
-  RigidForces forces{
-      parameters_.has("stiffness") ? parameters_.vector("stiffness") : none,
-      parameters_.has("damping") ? parameters_.vector("damping") : none,
-      parameters_.number("rotational_stiffness"),
-      parameters_.number("rotational_damping"),
-      parameters_.has("force") ? parameters_.vector_expression("force") : std::vector<Expression>{},
+  setup.add_cell_term(
+      make_term(RigidForces{
+          parameters_.has("stiffness") ? parameters_.vector("stiffness") : none,
+          parameters_.has("damping") ? parameters_.vector("damping") : none,
+          parameters_.has("force") ? parameters_.vector_expression("force") : std::vector<Expression>{}}),
+      {"translation"});
+  const Moment moment{
+      parameters_.number("rotational_stiffness"), parameters_.number("rotational_damping"),
       parameters_.has("moment") ? parameters_.vector_expression("moment") : std::vector<Expression>{}};
-  if (!forces.moment.empty() && forces.moment.size() != (dim == 2 ? 1u : 3u))
+  if (!moment.load.empty() && moment.load.size() != (dim == 2 ? 1u : 3u))
     throw Error(parameters_.where("moment"), "`moment` needs one entry in 2D, three in 3D");
-  setup.add_cell_term(make_term(forces), unknown_names);
+  if (dim == 2) {
+    setup.add_cell_term(make_term(PlaneMoments{moment}), {"rotation"});
+  } else {
+    setup.add_cell_term(make_term(SpaceMoments{moment}), {"rotation", "orientation"});
+    setup.add_cell_term(make_term(SpaceOrientation{}), {"rotation", "orientation"});
+    setup.set_initial("orientation", 0, Expression(1.0));
+  }
 
   const double density = parameters_.number("density");
+  Mat<3, 3, double> inertia;
   if (density > 0) {
-    const RigidInertia body = inertia_of(setup.moments(), density, dim);
-    setup.add_cell_term(make_term(body), unknown_names);
-    setup.add_integral("kinetic_energy", make_quantity(RigidKineticEnergy{body}), unknown_names);
+    const Moments moments = setup.moments();
+    const double mass = density * moments.volume;
+    inertia = inertia_of(moments, density, dim);
+    setup.add_cell_term(make_term(RigidMass{mass}), {"translation"});
+    if (dim == 2)
+      setup.add_cell_term(make_term(PlaneInertia{inertia(2, 2)}), {"rotation"});
+    else
+      setup.add_cell_term(make_term(SpaceInertia{inertia}), {"rotation", "angular_momentum", "orientation"});
+    setup.add_integral("kinetic_energy", make_quantity(RigidKineticEnergy{mass, inertia}),
+                       {"translation", "rotation"});
     if (parameters_.has("body_force"))
-      setup.add_cell_term(make_term(BodyLoad{parameters_.vector_expression("body_force"), body.mass}),
-                          unknown_names);
+      setup.add_cell_term(make_term(BodyLoad{parameters_.vector_expression("body_force"), mass}),
+                          {"translation"});
   }
   if (!parameters_.has("initial")) return;
   const Parameters& initial = parameters_.object("initial");
@@ -201,17 +291,25 @@ void RigidBody::build(FieldSetup& setup) const {
     if (initial.has(key))
       for (std::size_t d = 0; d < initial.vector(key).size(); ++d)
         setup.set_initial_rate(unknown, static_cast<int>(d), Expression(initial.vector(key)[d]));
+  if (dim == 2 || !(density > 0) || !initial.has("rotation_rate")) return;
+  Vec<3, double> spin;
+  std::copy_n(initial.vector("rotation_rate").begin(), 3, spin.c.begin());
+  const Vec<3, double> momentum = inertia * spin;
+  for (int d = 0; d < 3; ++d) setup.set_initial("angular_momentum", d, Expression(momentum[d]));
 }
 
 void RigidBody::displace(int dimension, const double* motion, const double* arm, double* displacement) const {
-  Vec<3, double> phi, x;
+  Vec<3, double> x, angle;
   for (int d = 0; d < dimension; ++d) x[d] = arm[d];
-  if (dimension == 2)
-    phi[2] = motion[2];
-  else
-    for (int d = 0; d < 3; ++d) phi[d] = motion[3 + d];
-  const Vec<3, double> turned = rotation_tensor(phi) * x;
-  for (int d = 0; d < dimension; ++d) displacement[d] = motion[d] + turned[d] - x[d];
+  Quaternion<double> orientation;
+  if (dimension == 2) {
+    angle[2] = motion[2];
+    orientation = turned(no_rotation, angle);
+  } else {
+    std::copy_n(motion + 6, 4, orientation.c.begin());
+  }
+  const Vec<3, double> there = rotation_tensor(orientation) * x;
+  for (int d = 0; d < dimension; ++d) displacement[d] = motion[d] + there[d] - x[d];
 }
 
 }  // namespace seam::solid

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rigid_surface.hpp"
 
-#include <array>
-
 #include "quantities.hpp"
-#include "rotation.hpp"
-#include "seam/base/diagnostics.hpp"
+#include "rigid_motion.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/term/fad.hpp"
@@ -14,89 +11,66 @@
 namespace seam::solid {
 namespace {
 
-/// Where a rigid body is: what all ranks know of its unknowns.
-struct Motion {
-  UnknownPlace centre;  ///< its node; component 0
-  std::array<double, 3> translation{}, rotation{};
-};
-
-/// u = x + (R(phi) - I) (X - X0): the displacement of each node of a field follows from the translation x and
-/// the rotation phi of a rigid body with centre X0. Its forces, handed on with the derivatives, are the
-/// body's force and the moments that do work on phi.
+/// u = x + (R - I) (X - X0): the displacement of each node of a field, or of one of its boundaries, follows
+/// from the translation x and the rotation R of a rigid body with centre X0. Its forces act on the body with
+/// the moments that they have about the body's axes.
 class Rigid final : public Constraint {
  public:
   explicit Rigid(const Parameters& p)
-      : where_(p.where()), name_(p.text("field")), body_name_(p.text("body")) {}
+      : name_(p.text("field")), body_name_(p.text("body")), boundary_(p.has("on") ? p.text("on") : "") {}
 
   void build(ConstraintSetup& setup) override {
     surface_ = &setup.field(name_);
-    body_ = &setup.field(body_name_);
     place_ = surface_->place("displacement");
-    translation_ = body_->place("translation");
-    rotation_ = body_->place("rotation");
+    body_ = RigidUnknowns(setup.field(body_name_));
+    if (!boundary_.empty()) nodes_ = setup.boundary_nodes(*surface_, place_.block, boundary_);
   }
 
   void tie(Ties& ties, const TimePoint&) const override {
-    const Motion motion = present(ties);
-    const Block& block = surface_->blocks()[place_.block];
-    for (int node = 0; node < block.space->owned_nodes(); ++node) tie_node(ties, motion, block, node);
+    const RigidPosition at = body_.present(ties);
+    const int owned = surface_->blocks()[place_.block].space->owned_nodes();
+    if (boundary_.empty())
+      for (int node = 0; node < owned; ++node) tie_node(ties, at, node);
+    for (const int node : nodes_)
+      if (node < owned) tie_node(ties, at, node);
   }
 
  private:
   using First = Fad<3, double>;
-  using Second = Fad<3, First>;
 
-  [[nodiscard]] Motion present(const Ties& ties) const {
-    const Block& block = body_->blocks()[translation_.block];
-    std::vector<Motion> own;
-    for (int node = 0; node < block.space->owned_nodes(); ++node) {
-      Motion& motion = own.emplace_back();
-      motion.centre = ties.place(*body_, translation_.block, node, 0);
-      const double* now = &block.now.value[static_cast<std::size_t>(node) * block.size];
-      for (int c = 0; c < translation_.components; ++c) motion.translation[c] = now[translation_.offset + c];
-      // In the plane the body turns about the third axis.
-      for (int c = 0; c < rotation_.components; ++c)
-        motion.rotation[first_axis() + c] = now[rotation_.offset + c];
-    }
-    own = body_->mesh().communicator().gather_all(own);
-    return own.at(0);
-  }
-  [[nodiscard]] int first_axis() const { return rotation_.components == 1 ? 2 : 0; }
-
-  void tie_node(Ties& ties, const Motion& motion, const Block& block, int node) const {
+  void tie_node(Ties& ties, const RigidPosition& at, int node) const {
+    const Block& block = surface_->blocks()[place_.block];
     const int dim = surface_->mesh().dimension();
-    Vec<3, Second> phi, arm;
+    Vec<3, First> rotation;
+    Vec<3, double> arm;
     for (int k = 0; k < 3; ++k) {
-      phi[k] = Second(First(motion.rotation[k], k), k);
-      if (k < dim) arm[k] = Second(block.space->position(node)[k] - motion.centre.position[k]);
+      rotation[k] = First(at.rotation[k], k);
+      if (k < dim) arm[k] = block.space->position(node)[k] - at.centre.position[k];
     }
-    const Vec<3, Second> turned = rotation_tensor(phi) * arm;
+    const Mat<3, 3, First> turn = at.turn(rotation);
+    const Vec<3, First> there = turn * arm;
+    // How it moves with turns about each of the body's axes.
+    const Mat<3, 3, First> lever = -1.0 * (turn * skew(arm));
     for (int i = 0; i < dim; ++i) {
       if (!is_free(block, node, place_.offset + i)) continue;
-      std::vector<TiedTo> to{{component(motion, translation_.offset + i), 1, 1}};
-      double constant = turned[i].v.v - arm[i].v.v;
-      for (int c = 0; c < rotation_.components; ++c) {
-        const double slope = turned[i].d[first_axis() + c].v;
-        to.push_back({component(motion, rotation_.offset + c), slope, slope});
-        constant -= slope * motion.rotation[first_axis() + c];
+      std::vector<TiedTo> to{{body_.place(at, i), 1, 1}};
+      double constant = there[i].v - arm[i];
+      for (int k = body_.first_axis(); k < 3; ++k) {
+        to.push_back({body_.place(at, 3 + k), there[i].d[k], lever(i, k).v});
+        constant -= there[i].d[k] * at.rotation[k];
       }
       ties.tie(ties.place(*surface_, place_.block, node, place_.offset + i), std::move(to), constant);
-      for (int c = 0; c < rotation_.components; ++c)
-        for (int k = 0; k < rotation_.components; ++k)
-          ties.add_change(component(motion, rotation_.offset + c), component(motion, rotation_.offset + k),
-                          turned[i].d[first_axis() + c].d[first_axis() + k]);
+      for (int k = body_.first_axis(); k < 3; ++k)
+        for (int l = body_.first_axis(); l < 3; ++l)
+          ties.add_change(body_.place(at, 3 + k), body_.place(at, 3 + l), lever(i, k).d[l]);
     }
   }
-  static UnknownPlace component(const Motion& motion, int c) {
-    UnknownPlace place = motion.centre;
-    place.component = c;
-    return place;
-  }
 
-  Location where_;
-  std::string name_, body_name_;
-  Field *surface_ = nullptr, *body_ = nullptr;
-  Field::ComponentRange place_{}, translation_{}, rotation_{};
+  std::string name_, body_name_, boundary_;
+  Field* surface_ = nullptr;
+  Field::ComponentRange place_{};
+  std::vector<int> nodes_;  ///< of the boundary
+  RigidUnknowns body_;
 };
 
 }  // namespace
@@ -116,8 +90,14 @@ void RigidSurface::build(FieldSetup& setup) const {
 }
 
 void declare_rigid(Registry& registry) {
-  Schema schema("The points of a field move with a rigid body, and what acts on them acts on it.");
-  schema.reference("field", "A field with a displacement, as a `rigid_surface`", "field");
+  Schema schema(
+      "The points of a field, or of one of its boundaries, move with a rigid body, and what acts on them "
+      "acts "
+      "on it.");
+  schema.reference("field", "A field with a displacement: a `rigid_surface`, or a body that deforms",
+                   "field");
+  schema.text("on", "Only the points of this boundary, as of a deformable body that is fixed to a rigid one")
+      .optional();
   schema.reference("body", "The `rigid_body`", "field");
   registry.add<Constraint>("constraint", "rigid", schema,
                            [](const Parameters& p, const Registry&) { return std::make_unique<Rigid>(p); });

@@ -16,34 +16,69 @@ Mat<3, 3, T> skew(const Vec<3, T>& a) {
   return r;
 }
 
-/// sin(x)/x, (1 - cos x)/x^2 and (x - sin x)/x^3 as functions of x^2; series where the quotients lose digits.
+/// A rotation: scalar first, then the vector. Its length does not count.
 template <class T>
-std::array<T, 3> rotation_coefficients(const T& square) {
+using Quaternion = Vec<4, T>;
+inline constexpr Quaternion<double> no_rotation{{1, 0, 0, 0}};
+
+/// sin(x)/x and (1 - cos x)/x^2 as functions of x^2; series where the quotients lose digits.
+template <class T>
+std::array<T, 2> rotation_coefficients(const T& square) {
   using std::cos, std::sin, std::sqrt;
   if (plain(square) < 1e-2) {
     const T& s = square;
     return {1.0 - s / 6.0 * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0))),
-            0.5 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0)))),
-            (1.0 / 6) * (1.0 - s / 20.0 * (1.0 - s / 42.0 * (1.0 - s / 72.0 * (1.0 - s / 110.0))))};
+            0.5 * (1.0 - s / 12.0 * (1.0 - s / 30.0 * (1.0 - s / 56.0 * (1.0 - s / 90.0))))};
   }
   const T x = sqrt(square);
-  return {sin(x) / x, (1.0 - cos(x)) / square, (x - sin(x)) / (x * square)};
+  return {sin(x) / x, (1.0 - cos(x)) / square};
 }
 
-/// Rodrigues' rotation tensor of the rotation vector.
-template <class T>
-Mat<3, 3, T> rotation_tensor(const Vec<3, T>& phi) {
-  const auto c = rotation_coefficients<T>(dot(phi, phi));
-  const Mat<3, 3, T> w = skew(phi);
-  return identity<3>() + c[0] * w + c[1] * (w * w);
+/// What is turned by `start` turns on, by a rotation vector in the turned body's own axes.
+template <class S, class T>
+Quaternion<T> turned(const Quaternion<S>& start, const Vec<3, T>& turn) {
+  // (cos, sin) of half the angle.
+  const T square = 0.25 * dot(turn, turn);
+  const auto c = rotation_coefficients<T>(square);
+  const T scalar = 1.0 - square * c[1];
+  const Vec<3, T> vector = (0.5 * c[0]) * turn;
+  Quaternion<T> r;
+  r[0] = start[0] * scalar;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    r[0] -= start[1 + i] * vector[i];
+    r[1 + i] =
+        start[0] * vector[i] + start[1 + i] * scalar + start[1 + j] * vector[k] - start[1 + k] * vector[j];
+  }
+  return r;
 }
 
-/// Spatial angular velocity = tangent (phi) * d(phi)/dt.
 template <class T>
-Mat<3, 3, T> rotation_tangent(const Vec<3, T>& phi) {
-  const auto c = rotation_coefficients<T>(dot(phi, phi));
-  const Mat<3, 3, T> w = skew(phi);
-  return identity<3>() + c[1] * w + c[2] * (w * w);
+Mat<3, 3, T> rotation_tensor(const Quaternion<T>& q) {
+  Vec<3, T> v;
+  for (int i = 0; i < 3; ++i) v[i] = q[1 + i];
+  const Mat<3, 3, T> w = skew(v);
+  const T twice = 2.0 / dot(q, q);
+  return identity<3>() + (twice * q[0]) * w + twice * (w * w);
+}
+
+/// By the shorter way: of at most half a turn, where its direction jumps.
+template <class T>
+Vec<3, T> rotation_vector(const Quaternion<T>& q) {
+  using std::atan2, std::sqrt;
+  const Quaternion<T> p = plain(q[0]) < 0 ? -q : q;
+  Vec<3, T> v;
+  for (int i = 0; i < 3; ++i) v[i] = p[1 + i];
+  const T square = dot(v, v);
+  if (plain(square) < 1e-2 * plain(p[0]) * plain(p[0])) {
+    // atan(x)/x by powers of x^2.
+    const T s = square / (p[0] * p[0]);
+    T sum = T(1.0 / 17);
+    for (int odd = 15; odd > 0; odd -= 2) sum = 1.0 / odd - s * sum;
+    return (2.0 * sum / p[0]) * v;
+  }
+  const T size = sqrt(square);
+  return (2.0 * atan2(size, p[0]) / size) * v;
 }
 
 }  // namespace seam::solid

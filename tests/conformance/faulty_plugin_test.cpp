@@ -121,6 +121,29 @@ TEST_CASE("the kit survives a plugin that crashes or throws, and says during wha
   CHECK_THAT(thrown.output, Contains("an exception of type int"));
 }
 
+TEST_CASE("the kit finds relations between unknowns that are told wrongly, or remember") {
+  const auto with_constraint = [](const std::string& how) {
+    const Folder folder;
+    std::ifstream in(scene);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    text.insert(text.find("time:"), "constraints: [{type: crooked, how: " + how + "}]\n\n");
+    return seam("plugin test " SEAM_FAULTY_PLUGIN " --scene " + folder.file("faulty.yaml", text) +
+                " --ranks 1");
+  };
+  const std::string values = "ties of unknowns: values change as the coefficients say",
+                    handed = "ties of unknowns: what is handed on changes as said";
+  const Result right = with_constraint("right");
+  INFO(right.output);
+  for (const std::string& check :
+       {values, handed, std::string("tangent: whole system"), std::string("rewind")})
+    CHECK_THAT(right.output, Contains("ok    " + check));
+  CHECK_THAT(with_constraint("slope").output, Contains("FAIL  " + values));
+  const Result change = with_constraint("change");
+  CHECK_THAT(change.output, Contains("FAIL  " + handed) && Contains("FAIL  tangent: whole system"));
+  CHECK_THAT(with_constraint("remembers").output, Contains("FAIL  rewind"));
+  CHECK_THAT(with_constraint("throws").output, Contains("no such row") && Contains("plugin 'faulty'"));
+}
+
 TEST_CASE("the kit differentiates at rest, and says of terms that they were not exercised") {
   const Result rest = run_kit("slope at rest", "1");
   INFO(rest.output);

@@ -10,27 +10,13 @@ using namespace seam_cli_test;
 
 namespace {
 
-/// The last row of a scene of configs/.
-class Ran {
- public:
-  explicit Ran(const std::string& scene, const std::string& options = "", const std::string& before = "") {
-    const Folder folder;
-    const Result done =
-        seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
-                 (folder.path / "out").string() + " " + options,
-             before);
-    INFO(done.output);
-    REQUIRE(done.code == 0);
-    series = folder.read("out/series.csv");
-    const std::string summary = folder.read("out/summary.json");
-    const std::size_t at = summary.find("\"that\": \"velocity.l2\"");
-    if (at != std::string::npos)
-      error = std::stod(summary.substr(summary.find_first_of("0123456789", summary.find("value", at))));
-  }
-  [[nodiscard]] double operator()(const std::string& name) const { return column(series, name).back(); }
-  std::string series;
-  double error = 0;
-};
+/// The error that a run was checked for.
+double error_of(const ShippedRun& run) {
+  const std::string summary = run.summary();
+  const std::size_t at = summary.find("\"that\": \"velocity.l2\"");
+  REQUIRE(at != std::string::npos);
+  return std::stod(summary.substr(summary.find_first_of("0123456789", summary.find("value", at))));
+}
 
 /// A box of fluid or a block, with constraints.
 std::string scene(const std::string& constraints, const std::string& grid = "cells: [4, 4]") {
@@ -70,7 +56,7 @@ void refuses(const std::string& text, const std::vector<std::string>& words) {
 
 TEST_CASE("a periodic flow is the same half a period away, on all numbers of ranks") {
   const std::string coarse = "--set parameters.n=10 --set parameters.end=0.08 --set 'checks=[]' ";
-  const Ran plain("fluid/taylor_green", coarse),
+  const ShippedRun plain("fluid/taylor_green", coarse),
       shifted("fluid/taylor_green", coarse + "--set parameters.shift=0.5");
   for (const std::string c : {".x", ".y"}) {
     CHECK(std::abs(plain("left" + c)) > 0.01);
@@ -80,15 +66,15 @@ TEST_CASE("a periodic flow is the same half a period away, on all numbers of ran
   }
   CHECK(plain("water.kinetic_energy") == Approx(shifted("water.kinetic_energy")).epsilon(1e-10));
   for (const int ranks : {2, 3}) {
-    const Ran run("fluid/taylor_green", coarse, fmt::format("mpirun --oversubscribe -np {}", ranks));
+    const ShippedRun run("fluid/taylor_green", coarse, fmt::format("mpirun --oversubscribe -np {}", ranks));
     for (const char* name : {"left.x", "left.y", "middle.x", "middle.y"})
       CHECK(run(name) == Approx(plain(name)).epsilon(1e-10));
   }
 }
 
 TEST_CASE("vortices that drift through a periodic box converge with second order", "[study]") {
-  const double coarse = Ran("fluid/taylor_green", "--set parameters.n=20").error,
-               fine = Ran("fluid/taylor_green", "--set parameters.n=40").error;
+  const double coarse = error_of(ShippedRun("fluid/taylor_green", "--set parameters.n=20")),
+               fine = error_of(ShippedRun("fluid/taylor_green", "--set parameters.n=40"));
   CAPTURE(coarse, fine);
   CHECK(fine > 0);
   CHECK(coarse > 3.5 * fine);
@@ -129,16 +115,16 @@ output:
 
 TEST_CASE("a block between oblique planes of symmetry does as the block along the axes") {
   const std::string loaded = "--set parameters.load=10 --set 'checks=[]' ";
-  const Ran straight("solid/turned_block", loaded + "--set parameters.angle=0");
+  const ShippedRun straight("solid/turned_block", loaded + "--set parameters.angle=0");
   for (const char* angle : {"pi/6", "-2", "3*pi/4"})
     for (const char* ranks : {"", "mpirun --oversubscribe -np 3"}) {
-      const Ran turned("solid/turned_block", loaded + "--set parameters.angle=" + angle, ranks);
+      const ShippedRun turned("solid/turned_block", loaded + "--set parameters.angle=" + angle, ranks);
       for (const char* name : {"along", "across", "block.strain_energy"}) {
         CHECK(std::abs(straight(name)) > 1e-4);
         CHECK(turned(name) == Approx(straight(name)).epsilon(1e-10));
       }
     }
-  Ran("solid/turned_block");
+  ShippedRun("solid/turned_block");
 }
 
 TEST_CASE("tied parts do as the whole") {
@@ -174,7 +160,7 @@ TEST_CASE("tied parts do as the whole") {
     for (const char* name : {"top.x", "top.y", "middle.x", "middle.y", "force.x", "force.y"})
       CHECK(parts.series(name).back() == Approx(whole.series(name).back()).epsilon(1e-10));
   }
-  Ran("solid/tied_blocks");
+  ShippedRun("solid/tied_blocks");
 }
 
 TEST_CASE("constraints that cannot be are refused, with what does not fit") {

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the direct solver solves, the iterative one solves as well, or says by name what it cannot.
-#include <sstream>
-
-#include "cli/run_command.hpp"
-#include "series.hpp"
+#include "scene_run.hpp"
 
 using namespace seam_cli_test;
 
@@ -11,26 +8,15 @@ namespace {
 
 const std::string tight = "--set 'solver.linear={type: krylov, tolerance: 1e-9}' ";
 
-/// The series of a scene of configs/.
-std::string series(const std::string& scene, const std::string& options, const std::string& before = "") {
-  const Folder folder;
-  const Result done =
-      seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
-               (folder.path / "out").string() +
-               " --set output.fields=false --set 'checks=[]' --set 'output.statistics={}' " + options,
-           before);
-  INFO(done.output);
-  REQUIRE(done.code == 0);
-  return folder.read("out/series.csv");
-}
+const std::string unchecked = "--set 'checks=[]' --set 'output.statistics={}' ";
 
 /// Values in the last row of `csv` under these names.
 void agree(const std::string& scene, const std::string& options, std::initializer_list<const char*> names) {
-  const std::string direct = series(scene, options), iterative = series(scene, tight + options);
+  const ShippedRun direct(scene, unchecked + options), iterative(scene, unchecked + tight + options);
   CAPTURE(scene);
   for (const std::string name : names) {
     CAPTURE(name);
-    const double expected = column(direct, name).back(), found = column(iterative, name).back();
+    const double expected = direct(name), found = iterative(name);
     CHECK(found != 0);
     CHECK(found == Approx(expected).epsilon(1e-6));
   }
@@ -61,13 +47,12 @@ TEST_CASE("at ten thousand unknowns the iterative solver finds what the direct o
 }
 
 TEST_CASE("each field may have an inverse of its own, and one that is not there is named") {
-  const std::string scene = "fsi/released_disc", one_step = "--set time.end=0.01 ";
-  const std::string expected = series(scene, one_step);
-  const std::string mixed =
-      series(scene, one_step +
-                        "--set 'solver.linear={type: krylov, tolerance: 1e-9, fields: {water: "
-                        "{type: ilu, fill: 1}, disc: multigrid}}'");
-  CHECK(column(mixed, "pole").back() == Approx(column(expected, "pole").back()).epsilon(1e-6));
+  const std::string scene = "fsi/released_disc", one_step = unchecked + "--set time.end=0.01 ";
+  const ShippedRun expected(scene, one_step),
+      mixed(scene, one_step +
+                       "--set 'solver.linear={type: krylov, tolerance: 1e-9, fields: {water: {type: ilu, "
+                       "fill: 1}, disc: multigrid}}'");
+  CHECK(mixed("pole") == Approx(expected("pole")).epsilon(1e-6));
 
   const Folder folder;
   const Result done =

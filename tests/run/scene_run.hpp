@@ -21,4 +21,28 @@ struct Run {
   Result done;
 };
 
+/// A run of a scene of configs/ that comes to its end, with checks that hold.
+class ShippedRun {
+ public:
+  /// @param before the command, as of seam()
+  explicit ShippedRun(const std::string& scene, const std::string& options = "",
+                      const std::string& before = "") {
+    const Result done =
+        seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
+                 (folder_.path / "out").string() + " --set output.fields=false " + options,
+             before);
+    INFO(done.output);
+    REQUIRE(done.code == 0);
+    csv = folder_.read("out/series.csv");
+  }
+  [[nodiscard]] std::vector<double> series(const std::string& name) const { return column(csv, name); }
+  /// At the end.
+  [[nodiscard]] double operator()(const std::string& name) const { return series(name).back(); }
+  [[nodiscard]] std::string summary() const { return folder_.read("out/summary.json"); }
+  std::string csv;
+
+ private:
+  Folder folder_;
+};
+
 }  // namespace seam_cli_test

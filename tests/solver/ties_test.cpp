@@ -7,7 +7,6 @@
 #include "seam/conformance/tangent.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/plugin/registry.hpp"
-#include "seam/solve/field_builder.hpp"
 #include "solver/diffusion.hpp"
 
 using namespace seam;
@@ -222,24 +221,6 @@ TEST_CASE("a step does not end before relations are met") {
   CHECK(value(field, a) == Approx(value(field, b) + std::pow(value(field, b), 2) / 2).epsilon(1e-9));
 }
 
-namespace {
-
-class TwoFields final : public ConstraintSetup {
- public:
-  explicit TwoFields(Problem& problem) : problem_(problem) {}
-  [[nodiscard]] Field& field(const std::string& name) const override { return *problem_.field(name).field; }
-  [[nodiscard]] std::vector<int> boundary_nodes(const Field& field, int block,
-                                                const std::string& boundary) const override {
-    return seam::boundary_nodes(field, block, boundary);
-  }
-  void close(const Field&, const std::string&) override {}
-
- private:
-  Problem& problem_;
-};
-
-}  // namespace
-
 TEST_CASE("nodes are tied to the face they lie on, not to one that ends nearby", "[ranks]") {
   Registry registry;
   register_constraints(registry);
@@ -254,10 +235,7 @@ TEST_CASE("nodes are tied to the face they lie on, not to one that ends nearby",
   p.set("fields", {Names{"fine", "coarse"}, {}, {}, true});
   p.set("boundaries", {Names{"x_max", "x_max"}, {}, {}, true});
   p.set("unknowns", {Names{}, {}, {}, true});
-  auto tied = registry.create<Constraint>("constraint", p);
-  TwoFields setup(problem);
-  tied->build(setup);
-  problem.add_constraint(std::move(tied), {});
+  problem.add_constraint(registry.create<Constraint>("constraint", p));
   problem.finish();
   problem.initialise(0);
   for (const Ties::Resolved& tie : problem.ties(time_point(1, 0, 1))) {

@@ -24,8 +24,8 @@ bool same_relations(const std::vector<Ties::Resolved>& a, const std::vector<Ties
   });
 }
 
-Error inactive(const Ties::Resolved& tie, const TiedTo& to) {
-  const double *x = tie.unknown.position, *y = to.unknown.position;
+Error inactive(const Ties::Resolved& tie, const UnknownPlace& to) {
+  const double *x = tie.unknown.position, *y = to.position;
   return Error(
       fmt::format("the unknown at ({:.6g}, {:.6g}, {:.6g}) is tied to one at ({:.6g}, {:.6g}, {:.6g}) that "
                   "is not part of "
@@ -65,8 +65,11 @@ Assembler::LocalUnknown Assembler::find(const UnknownPlace& place) const {
 
 void Assembler::number_changes(const Ties::Resolved& from, Tie& tie) const {
   tie.changes.clear();
-  for (const Ties::Resolved::Change& change : from.changes)
+  for (const Ties::Resolved::Change& change : from.changes) {
+    for (const UnknownPlace& place : {change.row, change.with})
+      if (find(place).unknown < 0) throw inactive(from, place);
     tie.changes.push_back({find(change.row).unknown, find(change.with).unknown, change.derivative});
+  }
 }
 
 /// @throws Error on all ranks where an unknown of the system is tied to one that is none
@@ -78,7 +81,7 @@ void Assembler::number_ties() {
       if (tie.tied.unknown < 0) continue;
       for (const TiedTo& to : from.to) {
         tie.to.push_back({find(to.unknown), to.coefficient, to.handed});
-        if (tie.to.back().to.unknown < 0) throw inactive(from, to);
+        if (tie.to.back().to.unknown < 0) throw inactive(from, to.unknown);
       }
       number_changes(from, tie);
       ties_.push_back(std::move(tie));
@@ -110,10 +113,10 @@ void Assembler::add_tied_nodes(NodeGraph::Elements& elements) const {
         for (const int unknown : {change.row, change.with}) elements.node.push_back(node_of_[unknown]);
     }
   }
-  std::sort(elements.node.begin() + static_cast<std::ptrdiff_t>(elements.start.back()), elements.node.end());
-  elements.node.erase(std::unique(elements.node.begin() + static_cast<std::ptrdiff_t>(elements.start.back()),
-                                  elements.node.end()),
-                      elements.node.end());
+  if (elements.node.size() == end) return;
+  const auto first = elements.node.begin() + static_cast<std::ptrdiff_t>(elements.start.back());
+  std::sort(first, elements.node.end());
+  elements.node.erase(std::unique(first, elements.node.end()), elements.node.end());
 }
 
 double Assembler::value_of(const LocalUnknown& unknown) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -130,5 +131,13 @@ bool uses_order(const Field& field, int order);
 /// @param guess start value and result, [dimension]
 /// @throws Error when it does not converge, naming the cell
 void invert_map(const ElementSide& side, const double* position, double* guess);
+
+/// Where a place lies in a cell.
+struct PlaceInCell {
+  std::vector<double> reference;  ///< coordinates, [dimension]
+  double outside;                 ///< how far outside of the reference cell they lie; 0 within
+};
+/// Nothing far outside of a curved cell, where its map has no inverse.
+std::optional<PlaceInCell> locate(const ElementSide& side, const double* position);
 
 }  // namespace seam

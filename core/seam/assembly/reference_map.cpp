@@ -48,4 +48,23 @@ void invert_map(const ElementSide& side, const double* position, double* guess) 
                           side.global_cell, mesh.name()));
 }
 
+std::optional<PlaceInCell> locate(const ElementSide& side, const double* position) {
+  const Mesh& mesh = side.field->mesh();
+  const int dim = mesh.dimension();
+  const bool simplex = is_simplex(mesh.type());
+  PlaceInCell place{std::vector<double>(dim, simplex ? 1.0 / (dim + 1) : 0.5), 0};
+  try {
+    invert_map(side, position, place.reference.data());
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+  double sum = 0;
+  for (const double x : place.reference) {
+    place.outside = std::max({place.outside, -x, simplex ? 0.0 : x - 1});
+    sum += x;
+  }
+  if (simplex) place.outside = std::max(place.outside, sum - 1);
+  return place;
+}
+
 }  // namespace seam

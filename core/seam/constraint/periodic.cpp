@@ -114,29 +114,29 @@ class Periodic final : public Constraint {
                                                        std::size_t pair) const {
     constexpr double tolerance = 1e-8;  // of the boundaries' extent
     const int dim = field_->mesh().dimension();
-    const auto low = [&](const std::vector<SharedNode>& nodes, int d) {
-      double least = INFINITY;
-      for (const SharedNode& node : nodes) least = std::min(least, node.position[d]);
-      return least;
+    const auto range = [](const std::vector<SharedNode>& nodes, int d) {
+      double low = INFINITY, high = -INFINITY;
+      for (const SharedNode& node : nodes) {
+        low = std::min(low, node.position[d]);
+        high = std::max(high, node.position[d]);
+      }
+      return std::pair(low, high);
     };
-    double shift[3] = {}, extent = 0;
+    double shift[3] = {}, extent = -1;
+    int along = 0;  // the coordinate in which the boundary extends most: partners are near in it
     for (int d = 0; d < dim; ++d) {
-      shift[d] = low(second, d) - low(first, d);
-      for (const SharedNode& node : first) extent = std::max(extent, node.position[d] - low(first, d));
+      const auto [low, high] = range(first, d);
+      shift[d] = range(second, d).first - low;
+      if (high - low > extent) {
+        extent = high - low;
+        along = d;
+      }
     }
     const auto distance = [&](const SharedNode& a, const SharedNode& b) {
       double most = 0;
       for (int d = 0; d < dim; ++d) most = std::max(most, std::abs(b.position[d] - a.position[d] - shift[d]));
       return most;
     };
-    // In the order of the coordinate along which the boundary extends most, so that partners are near in it.
-    int along = 0;
-    double longest = -1;
-    for (int d = 0; d < dim; ++d) {
-      double most = 0;
-      for (const SharedNode& node : first) most = std::max(most, node.position[d] - low(first, d));
-      if (most > longest) longest = most, along = d;
-    }
     std::vector<int> order(second.size());
     for (std::size_t b = 0; b < order.size(); ++b) order[b] = static_cast<int>(b);
     std::ranges::sort(order, {}, [&](int b) { return second[b].position[along]; });

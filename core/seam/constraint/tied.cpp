@@ -2,8 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/remote_cells.hpp"
@@ -11,70 +11,58 @@
 #include "seam/constraint/constraint.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/constraint/types.hpp"
+#include "seam/cut/cell_search.hpp"
 #include "seam/plugin/registry.hpp"
 
 namespace seam {
 namespace {
 
-/// The cells at a boundary, each with the box that its face lies in.
-class FaceBoxes {
+/// The cells at a boundary, found by the boxes that their faces lie in.
+class FacesNearby {
  public:
-  FaceBoxes(const MeshData& whole, const std::vector<CellFace>& faces) : dim_(whole.dimension) {
+  FacesNearby(const MeshData& whole, const std::vector<CellFace>& faces) : dim_(whole.dimension) {
     const CellTopology& cell = topology(whole.type);
     const std::size_t per_face = static_cast<std::size_t>(topology(cell.face_type).nodes(whole.order));
+    std::vector<std::pair<cutting::Vector, cutting::Vector>> boxes;
     for (const CellFace& face : faces) {
-      Box& box = boxes_.emplace_back(Box{face.cell, {}, {}});
-      box.low.fill(INFINITY);
-      box.high.fill(-INFINITY);
+      cells_.push_back(face.cell);
+      cutting::Vector low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+      if (dim_ == 2) low[2] = high[2] = 0;
       for (std::size_t a = 0; a < per_face; ++a) {
         const int local = cell.face_nodes[face.face][a];
         const int node = whole.cells[static_cast<std::size_t>(face.cell) * whole.nodes_per_cell() + local];
         for (int d = 0; d < dim_; ++d) {
           const double x = whole.coordinates[static_cast<std::size_t>(node) * dim_ + d];
-          box.low[d] = std::min(box.low[d], x);
-          box.high[d] = std::max(box.high[d], x);
+          low[d] = std::min(low[d], x);
+          high[d] = std::max(high[d], x);
         }
       }
-      double size = 0;
-      for (int d = 0; d < dim_; ++d) size = std::max(size, box.high[d] - box.low[d]);
       // Faces of curved surfaces that two meshes approximate in different ways lie beside each other.
       constexpr double beside = 0.1;
+      const double margin = beside * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
       for (int d = 0; d < dim_; ++d) {
-        box.low[d] -= beside * size;
-        box.high[d] += beside * size;
+        low[d] -= margin;
+        high[d] += margin;
       }
+      boxes.emplace_back(low, high);
     }
+    search_ = std::make_unique<cutting::CellSearch>(boxes);
   }
-  /// Global numbers of the cells whose face may be at x.
-  [[nodiscard]] std::vector<int> near(const double* x) const {
-    std::vector<int> cells;
-    for (const Box& box : boxes_) {
-      bool inside = true;
-      for (int d = 0; d < dim_ && inside; ++d) inside = box.low[d] <= x[d] && x[d] <= box.high[d];
-      if (inside) cells.push_back(box.cell);
-    }
-    return cells;
+  /// Appends the global numbers of the cells whose face may be at x.
+  void find(const double* x, std::vector<int>& cells) const {
+    cutting::Vector at{};
+    std::copy_n(x, dim_, at.begin());
+    const auto first = static_cast<std::ptrdiff_t>(cells.size());
+    search_->find(at, at, cells);
+    std::sort(cells.begin() + first, cells.end());
+    std::for_each(cells.begin() + first, cells.end(), [&](int& found) { found = cells_[found]; });
   }
 
  private:
-  struct Box {
-    int cell;
-    std::array<double, 3> low, high;
-  };
   int dim_;
-  std::vector<Box> boxes_;
+  std::vector<int> cells_;
+  std::unique_ptr<cutting::CellSearch> search_;
 };
-
-/// How far reference coordinates lie outside of their cell.
-double outside(CellType type, int dim, const double* xi) {
-  double most = 0, sum = 0;
-  for (int d = 0; d < dim; ++d) {
-    most = std::max({most, -xi[d], xi[d] - 1});
-    sum += xi[d];
-  }
-  const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
-  return simplex ? std::max(most, sum - 1) : most;
-}
 
 /// The nodes of one boundary follow the field on another one.
 class Tied final : public Constraint {
@@ -100,7 +88,7 @@ class Tied final : public Constraint {
       for (const Unknown& unknown : tied_->unknowns())
         if (!unknown.given) unknowns_.push_back(unknown.name);
     static_cast<void>(master_->mesh().boundary(boundaries_[1]));  // throws when there is none
-    const FaceBoxes faces(master_->mesh().whole(), master_->mesh().whole().boundaries.at(boundaries_[1]));
+    const FacesNearby faces(master_->mesh().whole(), master_->mesh().whole().boundaries.at(boundaries_[1]));
     for (const std::string& unknown : unknowns_) {
       const Field::ComponentRange from = tied_->place(unknown), to = master_->place(unknown);
       if (from.components != to.components)
@@ -142,7 +130,7 @@ class Tied final : public Constraint {
     std::vector<Place> places;
   };
 
-  [[nodiscard]] Pair find_places(const ConstraintSetup& setup, const FaceBoxes& faces, int from,
+  [[nodiscard]] Pair find_places(const ConstraintSetup& setup, const FacesNearby& faces, int from,
                                  int to) const {
     Pair pair{from, to, {}, {}};
     const Space& space = *tied_->blocks()[from].space;
@@ -151,7 +139,7 @@ class Tied final : public Constraint {
     for (const int node : setup.boundary_nodes(*tied_, from, boundaries_[0])) {
       if (node >= space.owned_nodes()) continue;
       nodes.push_back(node);
-      for (const int cell : faces.near(space.position(node))) cells.push_back(cell);
+      faces.find(space.position(node), cells);
       end.push_back(cells.size());
     }
     const std::vector<RemoteCell> candidates = fetch_cells(*master_, cells);
@@ -169,22 +157,14 @@ class Tied final : public Constraint {
 
   /// @param least how far the place in the best cell so far lies outside of it
   void look_at(const RemoteCell& cell, const double* x, int block, double& least, Place& place) const {
-    const Mesh& mesh = master_->mesh();
     ElementSide side;
     cell.attach(side, *master_);
-    const bool simplex = mesh.type() == CellType::triangle || mesh.type() == CellType::tetrahedron;
-    std::array<double, 3> xi{};
-    xi.fill(simplex ? 1.0 / (mesh.dimension() + 1) : 0.5);
-    try {
-      invert_map(side, x, xi.data());
-    } catch (const Error&) {
-      return;  // the map of a cell bends back somewhere outside of it
-    }
-    const double distance = outside(mesh.type(), mesh.dimension(), xi.data());
-    if (!(distance < least)) return;
-    least = distance;
+    const auto in_cell = locate(side, x);
+    if (!in_cell || !(in_cell->outside < least)) return;
+    least = in_cell->outside;
     ShapeTable table;
-    tabulate(mesh.type(), master_->blocks()[block].space->order(), xi.data(), 1, false, table);
+    tabulate(master_->mesh().type(), master_->blocks()[block].space->order(), in_cell->reference.data(), 1,
+             false, table);
     place.shares.clear();
     for (int a = 0; a < table.nodes; ++a)
       if (std::abs(table.value[a]) > 1e-10) place.shares.emplace_back(cell.nodes[block][a], table.value[a]);

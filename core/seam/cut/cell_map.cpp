@@ -24,9 +24,8 @@ void CellMap::find_affine_map() {
   const CellTopology& shape = topology(mesh_->type());
   const int dim = mesh_->dimension();
   const double* x = mesh_->geometry(cell_);
-  const bool simplex = mesh_->type() == CellType::triangle || mesh_->type() == CellType::tetrahedron;
   // The vertices one step from vertex 0 along each reference direction.
-  const std::array<int, 3> corner = simplex ? std::array{1, 2, 3} : std::array{1, 3, 4};
+  const std::array<int, 3> corner = is_simplex(mesh_->type()) ? std::array{1, 2, 3} : std::array{1, 3, 4};
   column_ = {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};
   double largest = 0;
   for (int i = 0; i < dim; ++i) origin_[i] = x[i];

@@ -68,8 +68,7 @@ Vector into_cell(CellType type, Vector reference) {
     x = std::clamp(x, 0.0, 1.0);
     sum += x;
   }
-  const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
-  return simplex && sum > 1 ? 1 / sum * reference : reference;
+  return is_simplex(type) && sum > 1 ? 1 / sum * reference : reference;
 }
 
 }  // namespace

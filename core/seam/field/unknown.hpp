@@ -12,7 +12,10 @@ enum class UnknownRole {
   /// do: of themselves they may say nothing about it.
   constraint,
   /// It displaces points, which positions are added to: the mesh, a body.
-  motion
+  motion,
+  /// Its equations say what it is by others and constrain none of them: an orientation that angles have led
+  /// to.
+  derived
 };
 
 /// Changes of an unknown that its equations hardly resist, which multigrid has to know.

@@ -121,7 +121,7 @@ void MatchingDomain::fill(int index, Element& element) const {
   const RemoteCell& partner = partners_[index];
   partner.attach(second, *sides_[1]);
   const CellType type = sides_[1]->mesh().type();
-  const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
+  const bool simplex = is_simplex(type);
   std::vector<double> reference(static_cast<std::size_t>(element.points) * dim,
                                 simplex ? 1.0 / (dim + 1) : 0.5);
   for (int q = 0; q < element.points; ++q)

@@ -88,7 +88,7 @@ class Simple final : public TpetraOperator {
   /// What displaces points comes first: the others' equations are on the mesh that it moves.
   void add_unknowns(const Matrix& a, const EquationBlock& equations, int fill) {
     std::vector<const EquationUnknown*> order;
-    for (const UnknownRole role : {UnknownRole::motion, UnknownRole::plain})
+    for (const UnknownRole role : {UnknownRole::motion, UnknownRole::plain, UnknownRole::derived})
       for (const EquationUnknown& unknown : equations.unknowns)
         if (unknown.role == role) order.push_back(&unknown);
     for (const EquationUnknown* unknown : order) {

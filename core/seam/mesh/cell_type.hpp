@@ -34,6 +34,10 @@ struct CellTopology {
 };
 
 const CellTopology& topology(CellType type);
+/// Whether shape functions are polynomials of one total degree; otherwise products of those along directions.
+[[nodiscard]] constexpr bool is_simplex(CellType type) {
+  return type == CellType::triangle || type == CellType::tetrahedron;
+}
 std::string name(CellType type);
 
 }  // namespace seam

@@ -111,7 +111,7 @@ void tabulate(CellType type, int order, const double* points, int count, bool wi
   table.value.assign(static_cast<std::size_t>(count) * table.stride, 0.0);
   table.gradient.assign(table.value.size() * dim, 0.0);
   table.hessian.assign(with_hessian ? table.gradient.size() * dim : 0, 0.0);
-  const bool simplex = type == CellType::triangle || type == CellType::tetrahedron;
+  const bool simplex = is_simplex(type);
   for (int q = 0; q < count; ++q) {
     const Sink sink{table, q, with_hessian};
     const double* x = points + static_cast<std::size_t>(q) * dim;

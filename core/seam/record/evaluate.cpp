@@ -222,8 +222,7 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
   constexpr double tolerance = 1e-6;
   struct Candidate {
     int cell;
-    double outside;  ///< how far outside the reference cell the point lies
-    std::vector<double> reference;
+    PlaceInCell place;
   };
   std::vector<Candidate> candidates;
   double best = std::numeric_limits<double>::max();
@@ -233,21 +232,10 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
     double distance = 0;
     for (int d = 0; d < dim; ++d) distance += std::pow(side.geometry[d] - position[d], 2);
     if (std::sqrt(distance) > 2 * side.diameter) continue;
-    const bool simplex = mesh.type() == CellType::triangle || mesh.type() == CellType::tetrahedron;
-    std::vector<double> reference(dim, simplex ? 1.0 / (dim + 1) : 0.5);
-    try {
-      invert_map(side, position.data(), reference.data());
-    } catch (const Error&) {
-      continue;  // far outside a curved cell, where its map has no inverse
-    }
-    double outside = 0, sum = 0;
-    for (int d = 0; d < dim; ++d) {
-      outside = std::max({outside, -reference[d], simplex ? 0.0 : reference[d] - 1});
-      sum += reference[d];
-    }
-    if (simplex) outside = std::max(outside, sum - 1);
-    best = std::min(best, outside);
-    if (outside <= tolerance) candidates.push_back({c, outside, reference});
+    const auto place = locate(side, position.data());
+    if (!place) continue;
+    best = std::min(best, place->outside);
+    if (place->outside <= tolerance) candidates.push_back({c, *place});
   }
   const double overall = communicator.min(best);
   if (overall > tolerance)
@@ -255,8 +243,8 @@ ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& posit
                                    fmt::join(position, ", "), mesh.name(), entry.name));
   constexpr double rounding = 1e-10;
   for (Candidate& candidate : candidates)
-    if (candidate.outside <= std::max(overall, 0.0) + rounding)
-      places_.push_back({candidate.cell, std::move(candidate.reference)});
+    if (candidate.place.outside <= overall + rounding)
+      places_.push_back({candidate.cell, std::move(candidate.place.reference)});
 }
 
 std::vector<double> ProbePoint::evaluate(const FieldEntry& entry, const NamedQuantity& quantity,

@@ -90,6 +90,14 @@ void add_field(Problem& problem, const std::string& name, const Parameters& para
       });
 }
 
+void add_constraint(Problem& problem, const Parameters& parameters, const Registry& registry) {
+  auto constraint = registry.create<Constraint>("constraint", parameters);
+  const std::string plugin = plugin_of(*constraint);
+  call_plugin(
+      parameters.where(), [&] { return fmt::format("constraint '{}'{}", parameters.type(), plugin); },
+      [&] { problem.add_constraint(std::move(constraint), parameters.where()); });
+}
+
 }  // namespace
 
 BuiltScene build_scene(const Scene& scene, const Registry& registry, const Communicator& communicator,
@@ -120,7 +128,9 @@ BuiltScene build_scene(const Scene& scene, const Registry& registry, const Commu
   }
   errors.throw_if_any();
   build_couplings(scene, registry, built);
-  build_constraints(scene, registry, built);
+  for (const Parameters& parameters : scene.root.list("constraints"))
+    errors.attempt([&] { add_constraint(*built.problem, parameters, registry); });
+  errors.throw_if_any();
   return built;
 }
 

@@ -38,9 +38,4 @@ BuiltScene build_scene(const Scene& scene, const Registry& registry, const Commu
 /// @throws Error with places in the scene
 void build_couplings(const Scene& scene, const Registry& registry, BuiltScene& built);
 
-/// Builds the constraints of a scene. Collective.
-/// @param built with its fields
-/// @throws Error with places in the scene
-void build_constraints(const Scene& scene, const Registry& registry, BuiltScene& built);
-
 }  // namespace seam

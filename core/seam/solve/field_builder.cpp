@@ -25,7 +25,7 @@ int cell_degree(const Field& field, const Term& term) {
   const Mesh& mesh = field.mesh();
   const int order = field.order();
   const Signature& s = term.signature(mesh.dimension());
-  const bool simplex = mesh.type() == CellType::triangle || mesh.type() == CellType::tetrahedron;
+  const bool simplex = is_simplex(mesh.type());
   const auto is_gradient = [](const Slot& slot) { return slot.shape == Shape::gradient; };
   // Gradients on straight simplices are a degree lower.
   const bool gradients_only = simplex && mesh.order() == 1 && !s.outputs.empty() &&

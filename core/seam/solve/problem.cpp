@@ -99,6 +99,24 @@ std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
   return unknowns;
 }
 
+/// What a constraint may ask of a problem.
+class FieldsForConstraint final : public ConstraintSetup {
+ public:
+  explicit FieldsForConstraint(Problem& problem) : problem_(problem) {}
+  [[nodiscard]] Field& field(const std::string& name) const override { return *problem_.field(name).field; }
+  [[nodiscard]] std::vector<int> boundary_nodes(const Field& field, int block,
+                                                const std::string& boundary) const override {
+    return seam::boundary_nodes(field, block, boundary);
+  }
+  void close(const Field& field, const std::string& boundary) override {
+    for (LevelCondition& level : problem_.field(field.name()).levels)
+      std::erase(level.open_boundaries, boundary);
+  }
+
+ private:
+  Problem& problem_;
+};
+
 }  // namespace
 
 Field& Problem::add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
@@ -121,6 +139,12 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
 
 void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms) {
   domains_.emplace_back(std::move(interface), std::move(terms));
+}
+
+void Problem::add_constraint(std::unique_ptr<Constraint> constraint, const Location& where) {
+  FieldsForConstraint setup(*this);
+  constraint->build(setup);
+  constraints_.emplace_back(std::move(constraint), where);
 }
 
 void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
@@ -203,7 +227,9 @@ bool Problem::constrains_rates() const {
   for (const FieldEntry& entry : fields_) {
     const auto has_order = [&](int order) {
       return std::any_of(entry.field->unknowns().begin(), entry.field->unknowns().end(),
-                         [&](const Unknown& u) { return u.time_order == order && !u.given; });
+                         [&](const Unknown& u) {
+                           return u.time_order == order && !u.given && u.role != UnknownRole::derived;
+                         });
     };
     if (has_order(0) && has_order(1)) return true;
   }
@@ -261,6 +287,7 @@ void Problem::initialise(double time, bool impose_prescribed) {
       entry.field->set_layout(nullptr);
     }
   if (!constraints_.empty() && impose_prescribed) {
+    state_.advance();  // a constraint may look at the start of the step
     if (assembler_->tie(ties(time_point(time, 0, 1)))) assembler_->rebuild();
     assembler_->settle();
   }

@@ -104,10 +104,10 @@ class Problem {
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
   void add_measure(InterfaceMeasure measure) { measures_.push_back(std::move(measure)); }
   [[nodiscard]] const std::vector<InterfaceMeasure>& measures() const { return measures_; }
-  /// Ties unknowns as a constraint says, which is built. Before finish().
-  void add_constraint(std::unique_ptr<Constraint> constraint, const Location& where) {
-    constraints_.emplace_back(std::move(constraint), where);
-  }
+  /// Builds a constraint and ties unknowns as it says. When all fields are there, before finish().
+  /// Collective.
+  /// @throws Error when it does not go with the fields
+  void add_constraint(std::unique_ptr<Constraint> constraint, const Location& where = {});
   /// Lets the interface be found by its name in the scene.
   void name_interface(const std::string& name, std::vector<InterfacePart> parts) {
     interfaces_[name] = std::move(parts);

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <stdexcept>
 
+#include "seam/constraint/constraint.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/plugin.hpp"
 #include "seam/term/kernel_term.hpp"
@@ -120,6 +121,29 @@ class Faulty final : public Physics {
   Location where_;
 };
 
+/// c_a = c_b + c_b^2/2 between two nodes, told wrongly.
+class Crooked final : public Constraint {
+ public:
+  explicit Crooked(std::string how) : how_(std::move(how)) {}
+  void build(ConstraintSetup& setup) override { field_ = &setup.field("plate"); }
+  void tie(Ties& ties, const TimePoint&) const override {
+    if (how_ == "throws") throw std::runtime_error("no such row");
+    const int master = 7, tied = 17;  // of the 25 nodes, none on the edge that is held
+    const double v = field_->blocks()[0].now.value[master];
+    const UnknownPlace to = ties.place(*field_, 0, master, 0);
+    const double slope = how_ == "slope" ? 1 + 2 * v : 1 + v;
+    const double value = v + v * v / 2 + (how_ == "remembers" ? 1e-3 * before_ : 0);
+    before_ = v;
+    ties.tie(ties.place(*field_, 0, tied, 0), {{to, slope, slope}}, value - slope * v);
+    if (how_ != "change") ties.add_change(to, to, how_ == "slope" ? 2 : 1);
+  }
+
+ private:
+  std::string how_;
+  Field* field_ = nullptr;
+  mutable double before_ = 0;
+};
+
 class Undefined final : public Physics {
  public:
   [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {}; }
@@ -134,6 +158,11 @@ SEAM_PLUGIN(registry) {
   schema.text("how", "in which way");
   registry.add<Physics>("field", "faulty", schema,
                         [](const Parameters& p, const Registry&) { return std::make_unique<Faulty>(p); });
+  Schema crooked("A relation that goes wrong.");
+  crooked.text("how", "in which way");
+  registry.add<Constraint>("constraint", "crooked", crooked, [](const Parameters& p, const Registry&) {
+    return std::make_unique<Crooked>(p.text("how"));
+  });
   Schema targets("Keys that point nowhere.");
   targets.reference("mesh", "its shape", "mesh");
   targets.reference("planet", "no thing of a scene", "planet").otherwise("mars");

@@ -50,7 +50,7 @@ class Gradients {
     for (int q = 0; q < points_; ++q)
       for (int k = 0; k < t.dimension; ++k)
         for (int a = 0; a < nodes_; ++a)
-          values_.push_back(simplex() ? in_simplex(q, k, a) : in_tensor(q, k, a));
+          values_.push_back(is_simplex(t_.type) ? in_simplex(q, k, a) : in_tensor(q, k, a));
   }
   [[nodiscard]] int points() const { return points_; }
   [[nodiscard]] const double* at(int point, int direction) const {
@@ -58,9 +58,6 @@ class Gradients {
   }
 
  private:
-  [[nodiscard]] bool simplex() const {
-    return t_.type == CellType::triangle || t_.type == CellType::tetrahedron;
-  }
   [[nodiscard]] const double* place(int node) const { return &t_.node_coordinates[node * t_.dimension]; }
 
   /// Lagrange function of the node at c (0, 1/2 or 1) and its slope.

@@ -1,0 +1,443 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "rigid_motion.hpp"
+#include "seam/assembly/domains.hpp"
+#include "seam/assembly/together.hpp"
+#include "seam/base/diagnostics.hpp"
+#include "seam/constraint/constraint.hpp"
+#include "seam/scene/expression.hpp"
+#include "seam/term/fad.hpp"
+
+namespace seam::solid {
+namespace {
+
+/// Unknowns of two bodies: 0 to 5 translations and rotations of the one that is held, 6 to 11 of the other.
+constexpr int both = 12;
+using Number = Fad<both, double>;
+using Direction = Vec<3, double>;
+constexpr int other = 6;
+
+/// A point or a direction, and how it changes with each unknown's virtual motion: with translations, and with
+/// turns about the axes of the body.
+struct Moving {
+  Vec<3, Number> value;
+  std::array<Vec<3, Number>, both> motion{};
+};
+
+/// What a joint wants to be zero, m or 1, and how it changes with virtual motions.
+struct Condition {
+  Number value;
+  std::array<Number, both> motion{};
+};
+
+Moving operator-(const Moving& a, const Moving& b) {
+  Moving r{a.value - b.value};
+  for (int k = 0; k < both; ++k) r.motion[k] = a.motion[k] - b.motion[k];
+  return r;
+}
+
+Condition dot(const Moving& a, const Moving& b) {
+  Condition r{seam::dot(a.value, b.value)};
+  for (int k = 0; k < both; ++k)
+    r.motion[k] = seam::dot(a.motion[k], b.value) + seam::dot(a.value, b.motion[k]);
+  return r;
+}
+
+Moving fixed(const Direction& direction) {
+  Moving r;
+  for (int i = 0; i < 3; ++i) r.value[i] = direction[i];
+  return r;
+}
+
+/// A body as conditions see it.
+class Partner {
+ public:
+  /// What is at rest.
+  Partner() = default;
+  /// @param first number of its unknowns among those of both
+  Partner(const RigidUnknowns& unknowns, const RigidPosition& at, int first)
+      : first_(first), axis_(unknowns.first_axis()), dimension_(unknowns.exists(2) ? 3 : 2) {
+    Vec<3, Number> rotation;
+    for (int k = 0; k < 3; ++k) rotation[k] = Number(at.rotation[k]);
+    for (int k = axis_; k < 3; ++k) rotation[k] = Number(at.rotation[k], first + 3 + k);
+    turn_ = at.turn(rotation);
+    angle_ = rotation[2];
+    for (int i = 0; i < dimension_; ++i) {
+      centre_[i] = at.centre.position[i];
+      translation_[i] = Number(at.translation[i], first + i);
+    }
+  }
+  [[nodiscard]] Moving point(const Direction& reference) const {
+    const Direction arm = reference - centre_;
+    Moving r = direction(arm);
+    for (int i = 0; i < 3; ++i) r.value[i] += centre_[i] + translation_[i];
+    for (int i = 0; i < dimension_; ++i) r.motion[first_ + i][i] = Number(1);
+    return r;
+  }
+  [[nodiscard]] Moving direction(const Direction& reference) const {
+    Moving r{turn_ * reference};
+    if (dimension_ == 0) return r;
+    const Mat<3, 3, Number> lever = -1.0 * (turn_ * skew(reference));
+    for (int k = axis_; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) r.motion[first_ + 3 + k][i] = lever(i, k);
+    return r;
+  }
+  /// In the plane, rad.
+  [[nodiscard]] Condition angle() const {
+    Condition r{angle_};
+    if (dimension_ != 0) r.motion[first_ + 5] = Number(1);
+    return r;
+  }
+
+ private:
+  int first_ = 0, axis_ = 0, dimension_ = 0;
+  Mat<3, 3, Number> turn_ = rotation_tensor(turned(no_rotation, Vec<3, Number>{}));
+  Direction centre_{};
+  Vec<3, Number> translation_{};
+  Number angle_{0.0};
+};
+
+/// Two directions normal to one, and to each other.
+std::array<Direction, 2> normals_of(const Direction& axis) {
+  int least = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(axis[i]) < std::abs(axis[least])) least = i;
+  Direction start{};
+  start[least] = 1;
+  Direction first = skew(axis) * start;
+  first = (1 / std::sqrt(seam::dot(first, first))) * first;
+  return {first, skew(axis) * first};
+}
+
+/// A node of a body that deforms, and its part of the mean displacement.
+struct Weighed {
+  UnknownPlace place;  ///< component 0 of the displacement
+  double weight = 0;
+  std::array<double, 3> displacement{}, position{};
+};
+
+/// Holds a rigid body to another one, to the ground or to a boundary of a body that deforms: as many of its
+/// unknowns follow from the rest as the joint takes freedoms.
+class Joint final : public Constraint {
+ public:
+  explicit Joint(const Parameters& p)
+      : where_(p.where()),
+        kind_(p.text("kind")),
+        body_name_(p.text("body")),
+        to_name_(p.has("to") ? p.text("to") : ""),
+        boundary_(p.has("on") ? p.text("on") : "") {
+    if (p.has("at")) std::ranges::copy(p.vector("at"), at_.emplace().c.begin());
+    if (p.has("axis")) {
+      Direction axis{};
+      std::ranges::copy(p.vector("axis"), axis.c.begin());
+      const double length = std::sqrt(seam::dot(axis, axis));
+      if (!(length > 0)) throw Error(p.where("axis"), "the axis of a joint has no direction");
+      axis_ = (1 / length) * axis;
+    }
+    if (p.has("motion")) motion_ = p.expression("motion");
+  }
+
+  void build(ConstraintSetup& setup) override {
+    const Field& body = setup.field(body_name_);
+    dimension_ = body.mesh().dimension();
+    body_ = RigidUnknowns(body);
+    if (!to_name_.empty() && boundary_.empty()) to_ = RigidUnknowns(setup.field(to_name_));
+    if (!boundary_.empty()) {
+      if (to_name_.empty()) throw Error(where_, "`on` names a boundary of the field `to`, which is missing");
+      deforming_ = &setup.field(to_name_);
+    }
+    require();
+    if (deforming_ != nullptr)
+      measure_boundary();
+    else if (!at_)
+      throw Error(where_, "a joint needs the point `at`, where it is in the reference position");
+  }
+
+  void tie(Ties& ties, const TimePoint& time) const override {
+    const RigidPosition at = body_.present(ties);
+    std::optional<RigidPosition> at_other;
+    if (to_) at_other = to_->present(ties);
+    const std::vector<Weighed> nodes = deforming_ != nullptr ? boundary_nodes(ties) : std::vector<Weighed>{};
+    together(*communicator_, [&] {
+      if (body_.owned()) solve(ties, conditions(at, at_other, nodes, time.time), at, at_other, nodes);
+    });
+  }
+
+ private:
+  /// @throws Error where keys do not go together
+  void require() {
+    communicator_ = &deforming_or_body().mesh().communicator();
+    if (kind_ == "slide" && !axis_) throw Error(where_, "a joint that slides needs the direction `axis`");
+    if (axis_ && dimension_ == 2 && kind_ == "hinge")
+      throw Error(where_, "in the plane a hinge has no `axis`: what is held turns in the plane");
+    if (kind_ == "hinge" && motion_ && dimension_ == 3 && !axis_)
+      throw Error(where_, "a given `motion` of a hinge in space needs its `axis`");
+    if (kind_ == "weld" && (motion_ || axis_))
+      throw Error(where_, "a weld has neither an `axis` nor a `motion`");
+    if (deforming_ != nullptr && (kind_ != "hinge" || axis_ || motion_))
+      throw Error(
+          where_,
+          "at a boundary of a body that deforms a joint is a hinge about the boundary's middle, any "
+          "way; for other joints fix the boundary to a rigid body of its own (constraint `rigid` with "
+          "`on`) and join that one");
+    if (deforming_ != nullptr && at_)
+      throw Error(where_, "`at` is for joints between points; on a boundary it is the middle");
+  }
+  [[nodiscard]] const Field& deforming_or_body() const {
+    return deforming_ != nullptr ? *deforming_ : body_.field();
+  }
+
+  /// Parts of nodes in the mean over the boundary, and its middle.
+  void measure_boundary() {
+    Field& field = *deforming_;
+    place_ = field.place("displacement");
+    const BoundaryDomain faces(field, boundary_, 2 * std::max(field.order(), field.mesh().order()));
+    const Space& space = *field.blocks()[place_.block].space;
+    Element element;
+    std::vector<double> sums(4, 0.0);
+    std::map<int, double> weight;
+    for (int e = 0; e < faces.size(); ++e) {
+      faces.fill(e, element);
+      const ElementSide& side = element.sides[0];
+      const ShapeTable& table = *side.table[space.order() - 1];
+      for (int q = 0; q < element.points; ++q) {
+        sums[3] += element.weight[q];
+        for (int d = 0; d < dimension_; ++d)
+          sums[d] += element.weight[q] * side.position[static_cast<std::size_t>(q) * dimension_ + d];
+        for (int n = 0; n < table.nodes; ++n)
+          weight[side.nodes[place_.block][n]] += element.weight[q] * table.value_at(q)[n];
+      }
+    }
+    field.mesh().communicator().sum(sums);
+    at_.emplace();
+    for (int d = 0; d < dimension_; ++d) (*at_)[d] = sums[d] / sums[3];
+    for (const auto& [node, part] : weight) weights_.emplace_back(node, part / sums[3]);
+  }
+
+  /// Those of all ranks, each once or, where cells of several have it, in parts.
+  [[nodiscard]] std::vector<Weighed> boundary_nodes(const Ties& ties) const {
+    const Block& block = deforming_->blocks()[place_.block];
+    std::vector<Weighed> own;
+    for (const auto& [node, weight] : weights_) {
+      if (weight == 0) continue;
+      Weighed& entry =
+          own.emplace_back(Weighed{ties.place(*deforming_, place_.block, node, place_.offset), weight});
+      for (int d = 0; d < dimension_; ++d) {
+        entry.displacement[d] =
+            block.now.value[static_cast<std::size_t>(node) * block.size + place_.offset + d];
+        entry.position[d] = block.space->position(node)[d];
+      }
+    }
+    return communicator_->gather_all(own);
+  }
+
+  [[nodiscard]] std::vector<Condition> conditions(const RigidPosition& at,
+                                                  const std::optional<RigidPosition>& at_other,
+                                                  const std::vector<Weighed>& nodes, double time) const {
+    const Partner body(body_, at, 0);
+    const Partner partner = to_ ? Partner(*to_, *at_other, other) : Partner();
+    Moving way = body.point(*at_) - partner.point(*at_);
+    if (deforming_ != nullptr)
+      for (int d = 0; d < dimension_; ++d) {
+        double mean = 0;
+        for (const Weighed& node : nodes) mean += node.weight * node.displacement[d];
+        way.value[d] -= Number(mean, other + d);
+        way.motion[other + d][d] -= Number(1);
+      }
+    const double given = motion_ ? (*motion_)(at_->c.data(), dimension_, time) : 0;
+    std::vector<Condition> all;
+    if (kind_ == "slide") {
+      for (const Direction& normal : normals_of(*axis_))
+        if (dimension_ == 3 || normal[2] == 0) all.push_back(dot(partner.direction(normal), way));
+      if (motion_) {
+        all.push_back(dot(partner.direction(*axis_), way));
+        all.back().value -= Number(given);
+      }
+    } else {
+      for (int d = 0; d < dimension_; ++d) {
+        Direction e{};
+        e[d] = 1;
+        all.push_back(dot(fixed(e), way));
+      }
+    }
+    add_rotations(body, partner, given, all);
+    return all;
+  }
+
+  void add_rotations(const Partner& body, const Partner& partner, double given,
+                     std::vector<Condition>& all) const {
+    const bool turns = kind_ == "hinge";
+    if (dimension_ == 2) {
+      if (turns && !motion_) return;
+      Condition angle = body.angle();
+      const Condition beside = partner.angle();
+      angle.value -= beside.value;
+      if (turns) angle.value -= Number(given);
+      for (int k = 0; k < both; ++k) angle.motion[k] -= beside.motion[k];
+      all.push_back(angle);
+      return;
+    }
+    if (!turns) {
+      for (int i = 0; i < 3; ++i) {
+        Direction one{}, next{};
+        one[i] = 1;
+        next[(i + 1) % 3] = 1;
+        all.push_back(dot(body.direction(one), partner.direction(next)));
+      }
+      return;
+    }
+    if (!axis_) return;
+    const std::array<Direction, 2> normal = normals_of(*axis_);
+    for (const Direction& n : normal) all.push_back(dot(body.direction(*axis_), partner.direction(n)));
+    // The first normal turns by the angle: it is normal to where the second one turns.
+    if (motion_)
+      all.push_back(dot(body.direction(normal[0]),
+                        partner.direction(std::cos(given) * normal[1] - std::sin(given) * normal[0])));
+  }
+
+  /// Solves the conditions for unknowns of the body, as many as there are: Gauss-Jordan elimination, once of
+  /// how values change and once of how virtual motions do.
+  void solve(Ties& ties, std::vector<Condition> rows, const RigidPosition& at,
+             const std::optional<RigidPosition>& at_other, const std::vector<Weighed>& nodes) const {
+    std::vector<std::array<double, both + 1>> values(rows.size());  // the last: what is left
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (int k = 0; k < both; ++k) values[r][k] = rows[r].value.d[k];
+      values[r][both] = rows[r].value.v;
+    }
+    std::vector<int> pivot;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      pivot.push_back(choose(rows[r], pivot));
+      reduce(
+          values, r, pivot[r], [](auto& row) -> auto& { return row; });
+      reduce(
+          rows, r, pivot[r], [](Condition & row) -> auto& { return row.motion; });
+    }
+    const auto now = [&](int k) {
+      if (k < other) return k < 3 ? at.translation[k] : at.rotation[k - 3];
+      if (at_other)
+        return k < other + 3 ? at_other->translation[k - other] : at_other->rotation[k - other - 3];
+      double mean = 0;
+      for (const Weighed& node : nodes) mean += node.weight * node.displacement[k - other];
+      return mean;
+    };
+    const auto is_pivot = [&](int k) { return std::ranges::find(pivot, k) != pivot.end(); };
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      std::vector<TiedTo> to;
+      double constant = now(pivot[r]) - values[r][both];
+      for (int k = 0; k < both; ++k) {
+        if (!exists(k) || is_pivot(k)) continue;
+        constant += values[r][k] * now(k);
+        add(to, k, -values[r][k], -rows[r].motion[k].v, at, at_other, nodes);
+      }
+      ties.tie(body_.place(at, pivot[r]), std::move(to), constant);
+      // Only rotations change how things move.
+      for (int k = 0; k < both; ++k)
+        for (int l = 0; l < both; ++l) {
+          if (!is_rotation(k) || !is_rotation(l) || is_pivot(k) || is_pivot(l)) continue;
+          double change = rows[r].motion[k].d[l];
+          for (std::size_t p = 0; p < rows.size(); ++p)
+            change -= rows[r].motion[k].d[pivot[p]] * values[p][l];
+          if (change != 0) ties.add_change(place(k, at, at_other), place(l, at, at_other), -change);
+        }
+    }
+  }
+
+  /// An unknown of the body: a translation where one appears. @throws Error where there is none left
+  [[nodiscard]] int choose(const Condition& row, const std::vector<int>& taken) const {
+    constexpr double nothing = 1e-6;
+    int best = -1;
+    for (int k = 0; k < other; ++k) {
+      if (k == 3 && best >= 0) break;
+      if (!body_.free(k) || std::ranges::find(taken, k) != taken.end()) continue;
+      const double size = std::abs(row.motion[k].v);
+      if (size > nothing && (best < 0 || size > std::abs(row.motion[best].v))) best = k;
+    }
+    if (best >= 0) return best;
+    throw Error(where_, "this joint cannot hold '" + body_name_ +
+                            "': what it would take is given already by the body's own `translation` or "
+                            "`rotation`");
+  }
+
+  /// Lets one row alone have an unknown, with the factor 1.
+  template <class Rows, class Entries>
+  static void reduce(Rows& rows, std::size_t r, int pivot, const Entries& entries_of) {
+    auto& own = entries_of(rows[r]);
+    const auto factor = own[pivot];
+    for (auto& entry : own) entry = entry / factor;
+    for (std::size_t s = 0; s < rows.size(); ++s) {
+      if (s == r) continue;
+      auto& row = entries_of(rows[s]);
+      const auto part = row[pivot];
+      for (std::size_t k = 0; k < row.size(); ++k) row[k] = row[k] - part * own[k];
+    }
+  }
+
+  [[nodiscard]] bool exists(int k) const {
+    if (k < other) return body_.exists(k);
+    if (to_) return to_->exists(k - other);
+    return deforming_ != nullptr && k - other < dimension_;
+  }
+  [[nodiscard]] bool is_rotation(int k) const { return exists(k) && k % other >= 3; }
+  [[nodiscard]] UnknownPlace place(int k, const RigidPosition& at,
+                                   const std::optional<RigidPosition>& at_other) const {
+    return k < other ? body_.place(at, k) : to_->place(*at_other, k - other);
+  }
+  void add(std::vector<TiedTo>& to, int k, double coefficient, double handed, const RigidPosition& at,
+           const std::optional<RigidPosition>& at_other, const std::vector<Weighed>& nodes) const {
+    if (coefficient == 0 && handed == 0) return;
+    if (k < other || to_) {
+      to.push_back({place(k, at, at_other), coefficient, handed});
+      return;
+    }
+    for (const Weighed& node : nodes) {
+      UnknownPlace component = node.place;
+      component.component += k - other;
+      to.push_back({component, node.weight * coefficient, node.weight * handed});
+    }
+  }
+
+  Location where_;
+  std::string kind_, body_name_, to_name_, boundary_;
+  std::optional<Direction> at_, axis_;
+  std::optional<Expression> motion_;  ///< rad or m
+  int dimension_ = 2;
+  const Communicator* communicator_ = nullptr;
+  RigidUnknowns body_;
+  std::optional<RigidUnknowns> to_;              ///< another rigid body
+  Field* deforming_ = nullptr;                   ///< what the boundary belongs to
+  Field::ComponentRange place_{};                ///< of its displacement
+  std::vector<std::pair<int, double>> weights_;  ///< of local nodes in the mean over the boundary
+};
+
+}  // namespace
+
+void declare_joint(Registry& registry) {
+  Schema schema("Holds a rigid body to another one, to the ground or to a boundary of a body that deforms.");
+  schema.choice("kind",
+                "`hinge`: a point of both stays one, in space about an axis or, without, any way; `slide`: "
+                "along a direction of what it is held to, without turning; `weld`: not at all",
+                {"hinge", "slide", "weld"});
+  schema.reference("body", "The `rigid_body` that is held: by one joint, others may be held to it", "field");
+  schema
+      .reference("to", "What holds it: a `rigid_body` or, with `on`, a body that deforms; default the ground",
+                 "field")
+      .optional();
+  schema
+      .text("on",
+            "Boundary of a body that deforms: a hinge about its middle, which moves with the mean of "
+            "its points")
+      .optional();
+  schema.vector("at", "A point of both, in the reference position").unit("m").optional();
+  schema.vector("axis", "Of a hinge in space, or along which to slide, in the reference position").optional();
+  schema.expression("motion", "Given angle, rad, or way, m; default free").optional();
+  registry.add<Constraint>("constraint", "joint", schema,
+                           [](const Parameters& p, const Registry&) { return std::make_unique<Joint>(p); });
+}
+
+}  // namespace seam::solid

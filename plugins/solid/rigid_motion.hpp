@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include "rotation.hpp"
+#include "seam/assembly/ties.hpp"
+
+namespace seam::solid {
+
+/// Where a rigid body is: what all ranks know of its unknowns. In the plane it turns about the third axis.
+struct RigidPosition {
+  UnknownPlace centre;  ///< its node; component 0
+  std::array<double, 3> translation{}, rotation{};
+  /// At the start of the step.
+  std::array<double, 3> old_rotation{};
+  Quaternion<double> old_orientation = no_rotation;
+
+  /// What the unknowns of its rotation do to vectors that are fixed in it.
+  template <class T>
+  [[nodiscard]] Mat<3, 3, T> turn(const Vec<3, T>& unknowns) const {
+    Vec<3, T> since = unknowns;
+    for (int k = 0; k < 3; ++k) since[k] -= T(old_rotation[k]);
+    return rotation_tensor(turned(old_orientation, since));
+  }
+};
+
+/// The unknowns of a `rigid_body` as constraints see them.
+class RigidUnknowns {
+ public:
+  RigidUnknowns() = default;
+  /// @throws Error listing the field's unknowns when it is no rigid body
+  explicit RigidUnknowns(const Field& field);
+  [[nodiscard]] const Field& field() const { return *field_; }
+  /// Collective.
+  [[nodiscard]] RigidPosition present(const Ties& ties) const;
+  /// First axis that it turns about, of 3.
+  [[nodiscard]] int first_axis() const { return rotation_.components == 1 ? 2 : 0; }
+  /// Number of an unknown, of 6: translations, then rotations about the axes. @pre there is one
+  [[nodiscard]] UnknownPlace place(const RigidPosition& at, int number) const;
+  /// Whether there is an unknown of this number, and its equation is to be solved. @pre this rank owns the
+  /// body
+  [[nodiscard]] bool free(int number) const;
+  [[nodiscard]] bool exists(int number) const {
+    return number < 3 ? number < translation_.components : number - 3 >= first_axis();
+  }
+  [[nodiscard]] bool owned() const { return block().space->owned_nodes() > 0; }
+
+ private:
+  [[nodiscard]] const Block& block() const { return field_->blocks()[translation_.block]; }
+  [[nodiscard]] int component(int number) const {
+    return number < 3 ? translation_.offset + number : rotation_.offset + number - 3 - first_axis();
+  }
+  const Field* field_ = nullptr;
+  Field::ComponentRange translation_{}, rotation_{};
+  int orientation_ = -1;  ///< first component, in space
+};
+
+}  // namespace seam::solid
