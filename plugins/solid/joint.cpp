@@ -165,7 +165,13 @@ class Joint final : public Constraint {
     if (to_) at_other = to_->present(ties);
     const std::vector<Weighed> nodes = deforming_ != nullptr ? boundary_nodes(ties) : std::vector<Weighed>{};
     together(*communicator_, [&] {
-      if (body_.owned()) solve(ties, conditions(at, at_other, nodes, time.time), at, at_other, nodes);
+      if (!body_.owned()) return;
+      // Which unknowns follow does not change within a step: one that is as good as another would come and
+      // go.
+      std::optional<RigidPosition> other_start;
+      if (at_other) other_start = at_other->at_start();
+      const std::vector<int> following = choose(conditions(at.at_start(), other_start, nodes, time.time));
+      solve(ties, conditions(at, at_other, nodes, time.time), following, at, at_other, nodes);
     });
   }
 
@@ -303,16 +309,14 @@ class Joint final : public Constraint {
 
   /// Solves the conditions for unknowns of the body, as many as there are: Gauss-Jordan elimination, once of
   /// how values change and once of how virtual motions do.
-  void solve(Ties& ties, std::vector<Condition> rows, const RigidPosition& at,
+  void solve(Ties& ties, std::vector<Condition> rows, const std::vector<int>& pivot, const RigidPosition& at,
              const std::optional<RigidPosition>& at_other, const std::vector<Weighed>& nodes) const {
     std::vector<std::array<double, both + 1>> values(rows.size());  // the last: what is left
     for (std::size_t r = 0; r < rows.size(); ++r) {
       for (int k = 0; k < both; ++k) values[r][k] = rows[r].value.d[k];
       values[r][both] = rows[r].value.v;
     }
-    std::vector<int> pivot;
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      pivot.push_back(choose(rows[r], pivot));
       reduce(
           values, r, pivot[r], [](auto& row) -> auto& { return row; });
       reduce(
@@ -336,19 +340,28 @@ class Joint final : public Constraint {
         add(to, k, -values[r][k], -rows[r].motion[k].v, at, at_other, nodes);
       }
       ties.tie(body_.place(at, pivot[r]), std::move(to), constant);
-      // Only rotations change how things move.
       for (int k = 0; k < both; ++k)
         for (int l = 0; l < both; ++l) {
-          if (!is_rotation(k) || !is_rotation(l) || is_pivot(k) || is_pivot(l)) continue;
+          if (!is_rigid(k) || !is_rigid(l) || is_pivot(k) || is_pivot(l)) continue;
           double change = rows[r].motion[k].d[l];
           for (std::size_t p = 0; p < rows.size(); ++p)
             change -= rows[r].motion[k].d[pivot[p]] * values[p][l];
-          if (change != 0) ties.add_change(place(k, at, at_other), place(l, at, at_other), -change);
+          ties.add_change(place(k, at, at_other), place(l, at, at_other), -change);
         }
     }
   }
 
-  /// An unknown of the body: a translation where one appears. @throws Error where there is none left
+  /// An unknown of the body for each condition.
+  [[nodiscard]] std::vector<int> choose(std::vector<Condition> rows) const {
+    std::vector<int> chosen;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      chosen.push_back(choose(rows[r], chosen));
+      reduce(
+          rows, r, chosen[r], [](Condition & row) -> auto& { return row.motion; });
+    }
+    return chosen;
+  }
+  /// A translation where one appears. @throws Error where there is none left
   [[nodiscard]] int choose(const Condition& row, const std::vector<int>& taken) const {
     constexpr double nothing = 1e-6;
     int best = -1;
@@ -383,19 +396,21 @@ class Joint final : public Constraint {
     if (to_) return to_->exists(k - other);
     return deforming_ != nullptr && k - other < dimension_;
   }
-  [[nodiscard]] bool is_rotation(int k) const { return exists(k) && k % other >= 3; }
+  /// Whether it is an unknown of a rigid body: how things move changes with no others.
+  [[nodiscard]] bool is_rigid(int k) const { return exists(k) && (k < other || to_); }
   [[nodiscard]] UnknownPlace place(int k, const RigidPosition& at,
                                    const std::optional<RigidPosition>& at_other) const {
     return k < other ? body_.place(at, k) : to_->place(*at_other, k - other);
   }
   void add(std::vector<TiedTo>& to, int k, double coefficient, double handed, const RigidPosition& at,
            const std::optional<RigidPosition>& at_other, const std::vector<Weighed>& nodes) const {
-    if (coefficient == 0 && handed == 0) return;
+    // Zeros of a moment would come and go with the pattern; what a node is to the mean stays.
     if (k < other || to_) {
       to.push_back({place(k, at, at_other), coefficient, handed});
       return;
     }
     for (const Weighed& node : nodes) {
+      if (coefficient == 0 && handed == 0) continue;
       UnknownPlace component = node.place;
       component.component += k - other;
       to.push_back({component, node.weight * coefficient, node.weight * handed});

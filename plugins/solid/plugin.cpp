@@ -33,7 +33,7 @@ SEAM_PLUGIN(registry) {
                      {{Published::As::quantity, "translation", "m", "of the centre"},
                       {Published::As::quantity, "rotation", "rad",
                        "an angle in the plane; in space angles about the body's own axes"},
-                      {Published::As::quantity, "orientation", "", "in space: quaternion, scalar first"},
+                      {Published::As::quantity, "orientation", "", "in space: quaternion, scalar last"},
                       {Published::As::quantity, "angular_momentum", "kg m^2/s",
                        "of a body with mass in space, about its centre"},
                       {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});

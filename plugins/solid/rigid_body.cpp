@@ -56,16 +56,21 @@ struct SpaceInertia {
   using rotation = Rotation<0>;
   using momentum = Rotation<1>;
   using orientation = OrientationOf<2>;
-  using Reads = Slots<Value<rotation>, OldValue<rotation>, Rate<rotation>, Value<momentum>, Rate<momentum>,
-                      OldValue<orientation>>;
+  using Reads = Slots<Value<rotation>, OldValue<rotation>, Rate<rotation>, SecondRate<rotation>,
+                      Value<momentum>, Rate<momentum>, OldValue<orientation>>;
   using Tests = Slots<Value<rotation>, Value<momentum>>;
   Mat<3, 3, double> inertia;  ///< about the centre, in the reference position, kg m^2
   template <int dim, class T>
-  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+  void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     if constexpr (dim == 3) {
       const Mat<3, 3, T> turn = rotation_tensor(orientation_of(s, rotation{}, orientation{}));
       r.value(rotation{}) += transpose(turn) * s.rate(momentum{});
-      r.value(momentum{}) += s.value(momentum{}) - turn * (inertia * s.rate(rotation{}));
+      const Vec<3, T> omega = s.rate(rotation{}), spin = inertia * omega;
+      r.value(momentum{}) += s.value(momentum{}) - turn * spin;
+      // Where the rates of what is known are asked for, at the start: that of the relation itself.
+      if (x.step == 0)
+        r.value(momentum{}) +=
+            s.rate(momentum{}) - turn * (inertia * s.second_rate(rotation{}) + skew(omega) * spin);
     }
   }
 };
@@ -224,8 +229,6 @@ std::vector<Unknown> RigidBody::unknowns(int dimension) const {
   Unknown rotation{"rotation", dimension == 2 ? 1 : 3, 1, order, "rad"};
   rotation.scale = 1;
   if (dimension == 2) return {translation, rotation};
-  // What has inertia in space says so by the rate of its momentum.
-  rotation.time_order = std::min(order, 1);
   Unknown orientation{"orientation", 4, 1, 0, "", UnknownRole::derived};
   orientation.scale = 1;
   std::vector<Unknown> all{translation, rotation, orientation};
@@ -264,7 +267,7 @@ void RigidBody::build(FieldSetup& setup) const {
   } else {
     setup.add_cell_term(make_term(SpaceMoments{moment}), {"rotation", "orientation"});
     setup.add_cell_term(make_term(SpaceOrientation{}), {"rotation", "orientation"});
-    setup.set_initial("orientation", 0, Expression(1.0));
+    setup.set_initial("orientation", 3, Expression(1.0));
   }
 
   const double density = parameters_.number("density");

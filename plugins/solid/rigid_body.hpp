@@ -8,7 +8,7 @@ namespace seam::solid {
 
 /// A body that moves without deforming. Its unknowns are the translation of its centre and its rotation: an
 /// angle in the plane; in space angles about its own axes, counted from step to step, beside the orientation
-/// that they have led to (a quaternion, scalar first) and, with mass, the angular momentum. Each component of
+/// that they have led to (a quaternion, scalar last) and, with mass, the angular momentum. Each component of
 /// translation and rotation is either given as a function of time or follows from mass, inertia, springs,
 /// dashpots and loads; the rotation's equations are moments about the body's axes.
 class RigidBody final : public Physics {

@@ -18,15 +18,17 @@ RigidPosition RigidUnknowns::present(const Ties& ties) const {
     RigidPosition& at = own.emplace_back();
     const Block& b = block();
     at.centre = ties.place(*field_, translation_.block, 0, 0);
+    at.in_space = orientation_ >= 0;
     std::copy_n(b.now.value.begin() + translation_.offset, translation_.components, at.translation.begin());
+    std::copy_n(b.old.value.begin() + translation_.offset, translation_.components,
+                at.old_translation.begin());
     for (int c = 0; c < rotation_.components; ++c) {
       at.rotation[first_axis() + c] = b.now.value[rotation_.offset + c];
       at.old_rotation[first_axis() + c] = b.old.value[rotation_.offset + c];
     }
-    if (orientation_ >= 0)
-      std::copy_n(b.old.value.begin() + orientation_, 4, at.old_orientation.c.begin());
-    else
-      at.old_rotation = {};  // the angle itself says how it is turned
+    if (at.in_space) std::copy_n(b.old.value.begin() + orientation_, 4, at.old_orientation.c.begin());
+    // Where no initial state has been set yet.
+    if (dot(at.old_orientation, at.old_orientation) == 0) at.old_orientation = no_rotation;
   }
   return field_->mesh().communicator().gather_all(own).at(0);
 }

@@ -11,16 +11,23 @@ namespace seam::solid {
 /// Where a rigid body is: what all ranks know of its unknowns. In the plane it turns about the third axis.
 struct RigidPosition {
   UnknownPlace centre;  ///< its node; component 0
+  bool in_space = false;
   std::array<double, 3> translation{}, rotation{};
   /// At the start of the step.
-  std::array<double, 3> old_rotation{};
-  Quaternion<double> old_orientation = no_rotation;
+  std::array<double, 3> old_translation{}, old_rotation{};
+  Quaternion<double> old_orientation = no_rotation;  ///< in space; in the plane `turn` needs none
 
+  [[nodiscard]] RigidPosition at_start() const {
+    RigidPosition start = *this;
+    start.translation = old_translation;
+    start.rotation = old_rotation;
+    return start;
+  }
   /// What the unknowns of its rotation do to vectors that are fixed in it.
   template <class T>
   [[nodiscard]] Mat<3, 3, T> turn(const Vec<3, T>& unknowns) const {
     Vec<3, T> since = unknowns;
-    for (int k = 0; k < 3; ++k) since[k] -= T(old_rotation[k]);
+    for (int k = 0; k < 3 && in_space; ++k) since[k] -= T(old_rotation[k]);
     return rotation_tensor(turned(old_orientation, since));
   }
 };

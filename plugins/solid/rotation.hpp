@@ -16,10 +16,10 @@ Mat<3, 3, T> skew(const Vec<3, T>& a) {
   return r;
 }
 
-/// A rotation: scalar first, then the vector. Its length does not count.
+/// A rotation: vector, then scalar. Its length does not count.
 template <class T>
 using Quaternion = Vec<4, T>;
-inline constexpr Quaternion<double> no_rotation{{1, 0, 0, 0}};
+inline constexpr Quaternion<double> no_rotation{{0, 0, 0, 1}};
 
 /// sin(x)/x and (1 - cos x)/x^2 as functions of x^2; series where the quotients lose digits.
 template <class T>
@@ -43,12 +43,11 @@ Quaternion<T> turned(const Quaternion<S>& start, const Vec<3, T>& turn) {
   const T scalar = 1.0 - square * c[1];
   const Vec<3, T> vector = (0.5 * c[0]) * turn;
   Quaternion<T> r;
-  r[0] = start[0] * scalar;
+  r[3] = start[3] * scalar;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
-    r[0] -= start[1 + i] * vector[i];
-    r[1 + i] =
-        start[0] * vector[i] + start[1 + i] * scalar + start[1 + j] * vector[k] - start[1 + k] * vector[j];
+    r[3] -= start[i] * vector[i];
+    r[i] = start[3] * vector[i] + start[i] * scalar + start[j] * vector[k] - start[k] * vector[j];
   }
   return r;
 }
@@ -56,29 +55,29 @@ Quaternion<T> turned(const Quaternion<S>& start, const Vec<3, T>& turn) {
 template <class T>
 Mat<3, 3, T> rotation_tensor(const Quaternion<T>& q) {
   Vec<3, T> v;
-  for (int i = 0; i < 3; ++i) v[i] = q[1 + i];
+  for (int i = 0; i < 3; ++i) v[i] = q[i];
   const Mat<3, 3, T> w = skew(v);
   const T twice = 2.0 / dot(q, q);
-  return identity<3>() + (twice * q[0]) * w + twice * (w * w);
+  return identity<3>() + (twice * q[3]) * w + twice * (w * w);
 }
 
 /// By the shorter way: of at most half a turn, where its direction jumps.
 template <class T>
 Vec<3, T> rotation_vector(const Quaternion<T>& q) {
   using std::atan2, std::sqrt;
-  const Quaternion<T> p = plain(q[0]) < 0 ? -q : q;
+  const Quaternion<T> p = plain(q[3]) < 0 ? -q : q;
   Vec<3, T> v;
-  for (int i = 0; i < 3; ++i) v[i] = p[1 + i];
+  for (int i = 0; i < 3; ++i) v[i] = p[i];
   const T square = dot(v, v);
-  if (plain(square) < 1e-2 * plain(p[0]) * plain(p[0])) {
+  if (plain(square) < 1e-2 * plain(p[3]) * plain(p[3])) {
     // atan(x)/x by powers of x^2.
-    const T s = square / (p[0] * p[0]);
+    const T s = square / (p[3] * p[3]);
     T sum = T(1.0 / 17);
     for (int odd = 15; odd > 0; odd -= 2) sum = 1.0 / odd - s * sum;
-    return (2.0 * sum / p[0]) * v;
+    return (2.0 * sum / p[3]) * v;
   }
   const T size = sqrt(square);
-  return (2.0 * atan2(size, p[0]) / size) * v;
+  return (2.0 * atan2(size, p[3]) / size) * v;
 }
 
 }  // namespace seam::solid

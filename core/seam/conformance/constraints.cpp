@@ -30,13 +30,16 @@ class PerUnknown {
     for (const Block* block : blocks) of_block.emplace_back(block->now.value.size(), 0.0);
   }
   [[nodiscard]] double operator()(const UnknownPlace& place) const {
-    const Block& block = *blocks_[place.block];
-    return of_block[place.block][static_cast<std::size_t>(block.space->local_node(place.node)) * block.size +
-                                 place.component];
+    return of_block[place.block][index(place)];
   }
+  [[nodiscard]] double& at(const UnknownPlace& place) { return of_block[place.block][index(place)]; }
   std::vector<std::vector<double>> of_block;
 
  private:
+  [[nodiscard]] std::size_t index(const UnknownPlace& place) const {
+    const Block& block = *blocks_[place.block];
+    return static_cast<std::size_t>(block.space->local_node(place.node)) * block.size + place.component;
+  }
   std::vector<Block*> blocks_;
 };
 
@@ -97,6 +100,12 @@ std::vector<ConformanceCheck> check_constraints(Problem& problem, const TimePoin
       ++number;
     }
     block += entry.field->blocks().size();
+  }
+  // What is tied follows.
+  for (const Resolved& tie : here) {
+    double& of_tied = direction.at(tie.unknown);
+    of_tied = 0;
+    for (const TiedTo& to : tie.to) of_tied += to.coefficient * direction(to.unknown);
   }
   std::vector<Resolved> ties[2];
   std::vector<Given> found[2];

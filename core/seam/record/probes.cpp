@@ -83,7 +83,7 @@ std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const
 
 void Probe::record(Problem& problem, const TimePoint& at, Results& results) const {
   const std::vector<double> values = evaluate(problem, at);
-  static const std::vector<std::string> axes{"x", "y", "z"};
+  static const std::vector<std::string> axes{"x", "y", "z", "w"};
   static const std::vector<std::string> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
   if (component_ == "magnitude") {
     double square = 0;
