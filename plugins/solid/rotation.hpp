@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "seam/term/fad.hpp"
 #include "seam/term/tensor.hpp"
 
 namespace seam::solid {
