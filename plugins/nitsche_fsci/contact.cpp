@@ -18,7 +18,7 @@ class ContactCoupling final : public Coupling {
   }
 
   static Schema schema() {
-    Schema s("A deforming body that touches another one, a rigid one or itself, without friction.");
+    Schema s("A body that touches another one, an obstacle or itself, without friction.");
     s.reference("on", "Interface of type contact or obstacle: how one surface looks at the other",
                 "interface")
         .of_types({"contact", "obstacle"});
@@ -35,6 +35,7 @@ class ContactCoupling final : public Coupling {
         .above(0)
         .at_most(1);
     declare_stress(s);
+    declare_surface_stiffness(s);
     s.choice(
          "adjoint",
          "Adjoint term: with `symmetric` (xi = -1) contact has an energy, which the scheme with theta 1/2 "
@@ -68,9 +69,10 @@ class ContactCoupling final : public Coupling {
   [[nodiscard]] bool both() const { return parameters_.text("acts_on") == "both"; }
   template <int count>
   [[nodiscard]] Bodies<count> bodies(const CouplingSides& sides) const {
-    const double penalty = parameters_.number("penalty");
-    if (count == 2) return {body_pull(parameters_, sides, 0, 1, penalty)};
-    return {{law_of(sides, 0), nullptr, penalty, Whose::own}};
+    BodyPull pull = body_pull(parameters_, sides, 0, count - 1 > 0 ? 1 : -1, parameters_.number("penalty"));
+    if (!pull.own && !pull.other && parameters_.text("adjoint") != "none")
+      throw Error(parameters_.where("adjoint"), "rigid bodies have no stress, and no adjoint term of it");
+    return {std::move(pull)};
   }
   template <int count>
   [[nodiscard]] std::vector<SideTerm> terms_between(const CouplingSides& sides) const {

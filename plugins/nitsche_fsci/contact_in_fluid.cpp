@@ -24,8 +24,7 @@ class ContactInFluid final : public Coupling {
 
   static Schema schema() {
     Schema s(
-        "A fluid and a deforming body that share their motion and traction, and that body's contact without "
-        "friction.");
+        "A fluid and a body that share their motion and traction, and that body's contact without friction.");
     s.reference("on", "Interface of type embedded_contact: the surface of one body", "interface")
         .of_types({"embedded_contact"});
     s.number("slip_length", "Navier's, wherever it is: 0 is no slip, .inf leaves the body to glide freely")
@@ -56,6 +55,7 @@ class ContactInFluid final : public Coupling {
     penalty.number("contact", "gamma_0 of contact, thesis (6.17)").otherwise("1").above(0);
     s.object("penalty", "Factors of Nitsche's penalty", penalty).otherwise("{}");
     declare_stress(s);
+    declare_surface_stiffness(s);
     declare_scaling(s, "once");
     return s;
   }

@@ -40,10 +40,11 @@ enum class Whose { both, own, other };
 
 /// S of two bodies. Point::constant: lambda_e of the cells on both sides, see TraceEigenvalue. With the
 /// stress of both omega = lambda' / (lambda + lambda') and gamma = gamma_0 (omega lambda + (1 - omega)
-/// lambda'), thesis (6.16), (6.17); else omega is 1 or 0.
+/// lambda'), thesis (6.16), (6.17); else omega is 1 or 0. A rigid body has no stress; of two gamma is what
+/// the scene gives.
 struct BodyPull {
-  std::shared_ptr<const Law> own, other;
-  double penalty;  ///< gamma_0
+  std::shared_ptr<const Law> own, other;  ///< null of a rigid body
+  double penalty;                         ///< gamma_0
   Whose stress = Whose::both;
 
   /// omega
@@ -64,13 +65,13 @@ struct BodyPull {
                              const Mat<dim, dim, T>& other_gradient) const {
     const double omega = weight(x);
     T pull = T(stiffness(x) * x.gap);
-    if (omega > 0) pull += omega * normal_stress<dim, T>(*own, own_gradient, normal);
-    if (omega < 1) pull += (1 - omega) * normal_stress<dim, T>(*other, other_gradient, normal);
+    if (omega > 0 && own) pull += omega * normal_stress<dim, T>(*own, own_gradient, normal);
+    if (omega < 1 && other) pull += (1 - omega) * normal_stress<dim, T>(*other, other_gradient, normal);
     return pull;
   }
 };
 
-/// Two bodies, or one and a rigid one (then Whose::own).
+/// Two bodies, or one and an obstacle (then Whose::own).
 template <int sides>
 struct Bodies {
   using Reads = std::conditional_t<sides == 2, Slots<Gradient<OwnDisplacement>, Gradient<OtherDisplacement>>,

@@ -53,8 +53,31 @@ std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side) {
   return law;
 }
 
+namespace {
+
+/// What a rigid body has instead of the stiffness of its cells.
+class GivenStiffness final : public CellConstant {
+ public:
+  explicit GivenStiffness(double stiffness) : stiffness_(stiffness) {}
+  [[nodiscard]] Refresh refresh() const override { return Refresh::once; }
+  [[nodiscard]] double compute(const CellTrace&) const override { return stiffness_; }
+
+ private:
+  double stiffness_;  ///< Pa/m
+};
+
+bool is_rigid(const CouplingSides& sides, int side) {
+  static_cast<void>(sides.fields.at(side)->place("displacement"));
+  return sides.fields[side]->has_constant("rigid");
+}
+
+}  // namespace
+
 std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,
                                              int side) {
+  if (is_rigid(sides, side))
+    return std::make_shared<GivenStiffness>(
+        parameters.has("surface_stiffness") ? parameters.number("surface_stiffness") : 0.0);
   return std::make_shared<TraceEigenvalue>(law_of(sides, side), scaling_of(parameters));
 }
 
@@ -64,6 +87,13 @@ void declare_stress(Schema& schema) {
               "Whose stress stands for that between the bodies: that of `both`, weighted, or of one",
               {"both", "own", "other"})
       .otherwise("both");
+}
+
+void declare_surface_stiffness(Schema& schema) {
+  schema.number("surface_stiffness", "Between two rigid bodies: pressure per overlap")
+      .unit("Pa/m")
+      .above(0)
+      .optional();
 }
 
 void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t self) {
@@ -89,6 +119,20 @@ void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t sel
 
 BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
                    double penalty) {
+  const bool own_rigid = is_rigid(sides, own), other_rigid = other < 0 || is_rigid(sides, other);
+  const bool stiff = parameters.has("surface_stiffness");
+  if (own_rigid && other_rigid) {
+    if (!stiff)
+      throw Error(parameters.where(),
+                  "two bodies that are rigid have no stress that would hold them apart: give a "
+                  "`surface_stiffness`, the pressure per overlap");
+    return {nullptr, nullptr, 1, Whose::own};
+  }
+  if (stiff)
+    throw Error(parameters.where("surface_stiffness"),
+                "`surface_stiffness` is for two rigid bodies; here one deforms, and its stiffness counts");
+  if (other_rigid) return {law_of(sides, own), nullptr, penalty, Whose::own};
+  if (own_rigid) return {nullptr, law_of(sides, other), penalty, Whose::other};
   const std::string& name = parameters.text("stress");
   const Whose whose = name == "both" ? Whose::both : (name == "own" ? Whose::own : Whose::other);
   return {law_of(sides, own), law_of(sides, other), penalty, whose};

@@ -26,7 +26,7 @@ Jump jump_of(const Parameters& jumps, const std::string& key, bool tensor);
 /// @throws Error when the body has none, naming the field
 std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side);
 
-/// lambda_e of the cells on a side, by the key `scaling`.
+/// lambda_e of the cells on a side, by the key `scaling`; of a rigid body the key `surface_stiffness`.
 std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,
                                              int side);
 
@@ -35,7 +35,11 @@ void declare_stress(Schema& schema);
 /// Of two looks of a pair of surfaces at each other, each of which says whose stress counts.
 /// @throws Error where both say `own`, or both say `other`: then forces do not balance
 void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t self);
-/// @param penalty gamma_0
+/// Adds the key `surface_stiffness` of two rigid bodies.
+void declare_surface_stiffness(Schema& schema);
+/// Of a body beside an obstacle, or of two, of which a rigid one has no stress.
+/// @param other the side of the other body, -1 for an obstacle @param penalty gamma_0
+/// @throws Error where both are rigid and the scene gives no stiffness, or gives one where they are not
 BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,
                    double penalty);
 

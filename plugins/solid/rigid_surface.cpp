@@ -86,6 +86,7 @@ Schema RigidSurface::schema() {
 }
 
 void RigidSurface::build(FieldSetup& setup) const {
+  setup.publish("rigid", 1);  // it has no stress
   setup.add_output("velocity", make_quantity(Velocity{}), {"displacement"});
 }
 

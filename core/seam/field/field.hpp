@@ -81,6 +81,7 @@ class Field {
   /// A constant that the field's physics makes known, such as "viscosity".
   /// @throws Error listing those it has
   [[nodiscard]] double constant(const std::string& name) const;
+  [[nodiscard]] bool has_constant(const std::string& name) const { return constants_.contains(name); }
   void set_constant(const std::string& name, double value) { constants_[name] = value; }
   /// A law that the field's physics makes known, such as "stress", as it holds in one of the regions that it
   /// tells apart; null when it does not.
