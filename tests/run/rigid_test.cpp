@@ -5,6 +5,7 @@
 #include "scene_run.hpp"
 
 using namespace seam_cli_test;
+using Catch::Matchers::Contains;
 
 namespace {
 
@@ -106,3 +107,124 @@ TEST_CASE("a disc of a hundredth of the fluid's density rises without instabilit
     last = height.back();
   }
 }
+
+TEST_CASE("a block keeps its energy and momentum over a hundred turns about its middle axis", "[study]") {
+  ShippedRun("solid/spinning_block", "--set parameters.turns=100");
+}
+
+TEST_CASE("a pendulum's period is right to second order") {
+  const auto late = [](const std::string& steps) {
+    return std::abs(ShippedRun("solid/pendulum", unchecked + "--set parameters.steps=" + steps)("late"));
+  };
+  const double coarse = late("100"), fine = late("200");
+  CAPTURE(coarse, fine);
+  CHECK(coarse < 2e-3);
+  CHECK(coarse / fine == Approx(4).epsilon(0.1));
+}
+
+TEST_CASE("a bar that hangs at a boundary of a deformable body balances on it") {
+  const Run run(R"yaml(
+title: A bar below a block that is held on the left
+dimension: 2
+plugins: [solid]
+meshes:
+  block: {grid: {from: [0, 0], to: [1, 0.4], cells: [4, 3]}}
+  bar: {grid: {from: [0.95, -0.7], to: [1.25, -0.1], cells: [1, 2]}}
+fields:
+  block: {type: solid, mesh: block, material: {type: neo_hookean, young: 50, poisson: 0.3}, boundary: [{on: x_min, displacement: [0, 0]}]}
+  bar: {type: rigid_body, mesh: bar, force: [0, -2*t]}
+constraints: [{type: joint, kind: hinge, body: bar, to: block, on: x_max}]
+time: {end: 1, step: {initial: 0.25}}
+solver: {newton: {tolerance: 1e-12}}
+output:
+  fields: false
+  probes:
+    held: {field: block, on: x_min, quantity: reaction}
+    end: {field: block, on: x_max, quantity: displacement}
+    bar: {field: bar, quantity: translation}
+    angle: {field: bar, quantity: rotation}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const auto last = [&](const std::string& name) { return run.series(name).back(); };
+  // All of the weight goes through the hinge into the wall, and nothing else does.
+  CHECK(std::abs(last("held.y")) == Approx(2).epsilon(1e-10));
+  CHECK(std::abs(last("held.x")) < 1e-10);
+  // The middle of the bar is below the hinge, the middle of the boundary: 0.1 beside and 0.6 below it at
+  // first.
+  const double x = last("end.x") / 0.4, y = last("end.y") / 0.4;
+  CHECK(std::abs(y) > 0.05);
+  CHECK(std::abs(1.1 + last("bar.x") - (1 + x)) < 1e-10);
+  CHECK(-0.4 + last("bar.y") == Approx(0.2 + y - std::hypot(0.1, 0.6)).epsilon(1e-10));
+  CHECK(last("angle") == Approx(-std::atan2(0.1, 0.6)).epsilon(1e-9));
+}
+
+TEST_CASE("joints that cannot be are refused, with their places") {
+  const auto refused = [](const std::string& constraints, const std::string& keys = "") {
+    const Run run(R"yaml(
+title: Two bars
+dimension: 2
+plugins: [solid]
+meshes:
+  one: {grid: {from: [0, 0], to: [1, 0.2], cells: [1, 1]}}
+  two: {grid: {from: [1, 0], to: [2, 0.2], cells: [1, 1]}}
+fields:
+  one: {type: rigid_body, mesh: one, density: 1, body_force: [0, -1]}
+  two: {type: rigid_body, mesh: two, density: 1)yaml" +
+                      keys + "}\nconstraints:\n" + constraints +
+                      "\ntime: {theta: 1, end: 1, step: {initial: 0.5}}\noutput: {fields: false}\n",
+                  "--quiet");
+    CHECK(run.done.code != 0);
+    return run.done.output;
+  };
+  const std::string first = "  - {type: joint, kind: hinge, body: two, at: [2, 0]}\n";
+  const std::string twice =
+      refused(first + "  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\n");
+  CHECK_THAT(twice, Contains("is tied twice") && Contains("scene.yaml:12") && Contains("scene.yaml:13"));
+  CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\n"
+                     "  - {type: joint, kind: hinge, body: one, to: two, at: [0, 0]}\n"),
+             Contains("in a circle"));
+  CHECK_THAT(refused(first, ", translation: [0, 0], rotation: [0]"),
+             Contains("this joint cannot hold 'two'") && Contains("scene.yaml:12"));
+  CHECK_THAT(refused("  - {type: joint, kind: slide, body: two, at: [2, 0]}\n"),
+             Contains("needs the direction `axis`"));
+  CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two}\n"), Contains("needs the point `at`"));
+  CHECK_THAT(refused("  - {type: joint, kind: slide, body: two, at: [2, 0], axis: [0, 0]}\n"),
+             Contains("has no direction"));
+  CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, at: [2, 0], axis: [0, 1]}\n"),
+             Contains("in the plane a hinge has no `axis`"));
+  CHECK_THAT(refused("  - {type: joint, kind: weld, body: two, at: [2, 0], motion: t}\n"),
+             Contains("a weld has neither"));
+  CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: one, on: x_max, at: [1, 0]}\n"),
+             Contains("displacement") || Contains("middle"));
+}
+
+TEST_CASE("what presses on rigid bodies must have a stiffness, and only one") {
+  const auto contact = [](const std::string& stiffness) {
+    return Run(R"yaml(
+title: A block on the ground
+dimension: 2
+plugins: [solid, nitsche_fsci]
+meshes: {block: {grid: {from: [0, 0], to: [1, 0.5], cells: [2, 1]}}}
+fields:
+  block: {type: rigid_body, mesh: block, density: 1, body_force: [0, -1]}
+  skin: {type: rigid_surface, mesh: block}
+  soft: {type: solid, mesh: block, material: {type: neo_hookean, young: 50, poisson: 0.3}}
+constraints: [{type: rigid, field: skin, body: block}]
+interfaces:
+  floor: {type: obstacle, from: skin, body: {type: box, from: [-1, -1], to: [2, 0.01]}}
+  also: {type: obstacle, from: soft, body: {type: box, from: [-1, -1], to: [2, 0.01]}}
+coupling:
+  - {type: contact, on: )yaml" +
+                   stiffness +
+                   "}\ntime: {theta: 1, end: 0.1, step: {initial: 0.1}}\noutput: {fields: false}\n",
+               "--quiet")
+        .done.output;
+  };
+  CHECK_THAT(contact("floor"), Contains("give a `surface_stiffness`"));
+  CHECK_THAT(contact("also, surface_stiffness: 5"), Contains("is for two rigid bodies"));
+  CHECK_THAT(contact("floor, surface_stiffness: 5, adjoint: symmetric"), Contains("no adjoint term"));
+}
+
+TEST_CASE("a rigid block slides on a slope as bodies fall") { ShippedRun("contact/sliding_block"); }
