@@ -17,6 +17,7 @@ import shutil
 import sys
 
 CORE = pathlib.Path(__file__).resolve().parent.parent / "core"
+PLUGINS = CORE.parent / "plugins"
 ABI = CORE / "seam/plugin/abi.txt"
 ENTRIES = """
     assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp interface/adjoint.hpp interface/cell_constant.hpp
@@ -26,20 +27,29 @@ ENTRIES = """
     scene/schema.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp
     term/tensor.hpp
 """.split()
+# Of plugins whose types others can extend: installed as seam/plugins/..., with what they include beside them.
+OF_PLUGINS = ["cutfem_fluid/stabilisation.hpp"]
 GENERATED = {"seam/plugin/fingerprint.hpp", "seam/plugin/headers.hpp"}  # by CMake, where Seam is built
 
 COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)
 TOKEN = re.compile(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'|\w+|[^\w\s]')
 
 
+def source(name):
+    of_plugin = name.removeprefix("seam/plugins/")
+    return CORE / name if of_plugin == name else PLUGINS / of_plugin
+
+
 def public_headers():
-    found, left = set(), [f"seam/{entry}" for entry in ENTRIES]
+    found = set()
+    left = [f"seam/{entry}" for entry in ENTRIES] + [f"seam/plugins/{entry}" for entry in OF_PLUGINS]
     while left:
         name = left.pop()
         if name in found or name in GENERATED:
             continue
         found.add(name)
-        left += re.findall(r'#include "(seam/[^"]+)"', (CORE / name).read_text())
+        for included in re.findall(r'#include "([^"]+)"', source(name).read_text()):
+            left.append(included if included.startswith("seam/") else str(pathlib.PurePosixPath(name).parent / included))
     return sorted(found)
 
 
@@ -54,7 +64,7 @@ def headers_hash():
     digest = hashlib.sha256()
     for name in public_headers():
         # The number stands in a header itself; that it is raised changes nothing else.
-        text = re.sub(r"(plugin_abi_m\w+) = \d+", r"\1", tokens((CORE / name).read_text()))
+        text = re.sub(r"(plugin_abi_m\w+) = \d+", r"\1", tokens(source(name).read_text()))
         digest.update(f"{name}\n{text}\n".encode())
     return digest.hexdigest()[:32]
 
@@ -94,7 +104,7 @@ def install(folder):
     for name in public_headers():
         target = pathlib.Path(folder) / name
         target.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copyfile(CORE / name, target)
+        shutil.copyfile(source(name), target)
     return 0
 
 
