@@ -228,3 +228,37 @@ coupling:
 }
 
 TEST_CASE("a rigid block slides on a slope as bodies fall") { ShippedRun("contact/sliding_block"); }
+
+TEST_CASE("the force on a body is what the fluid's equations leave") {
+  const Run run(R"yaml(
+title: A disc on springs in a flow
+dimension: 2
+plugins: [cutfem_fluid, solid, nitsche_fsci]
+meshes:
+  box: {grid: {from: [0, 0], to: [2, 1], cells: [20, 10]}}
+  disc: {grid: {from: [-1, -1], to: [1, 1], cells: [4, 4], map: ["0.7 + 0.15*x*sqrt(1 - y^2/2)", "0.55 + 0.15*y*sqrt(1 - x^2/2)"]}}
+fields:
+  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: x_min, velocity: ["4*y*(1 - y)", 0]}, {on: [y_min, y_max], velocity: [0, 0]}, {on: x_max, outflow: do_nothing}]}
+  disc: {type: rigid_body, mesh: disc, stiffness: [20, 30], rotational_stiffness: 2}
+  skin: {type: rigid_surface, mesh: disc}
+constraints: [{type: rigid, field: skin, body: disc}]
+interfaces: {gamma: {type: embedded, field: water, body: skin}}
+coupling: [{type: fsi, on: gamma}]
+time: {static: true, end: 1}
+solver: {newton: {tolerance: 1e-13}}
+output:
+  fields: false
+  probes:
+    force: {interface: gamma, quantity: force}
+    moved: {field: disc, quantity: translation}
+    angle: {field: disc, quantity: rotation}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const double x = run.series("moved.x").back(), y = run.series("moved.y").back();
+  CHECK(x > 0.01);
+  CHECK(std::abs(run.series("angle").back()) > 1e-4);
+  CHECK(std::abs(run.series("force.x").back()) == Approx(20 * x).epsilon(1e-11));
+  CHECK(std::abs(run.series("force.y").back()) == Approx(30 * std::abs(y)).margin(1e-11 * 20 * x));
+}
