@@ -64,13 +64,19 @@ struct SpaceInertia {
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     if constexpr (dim == 3) {
       const Mat<3, 3, T> turn = rotation_tensor(orientation_of(s, rotation{}, orientation{}));
-      r.value(rotation{}) += transpose(turn) * s.rate(momentum{});
       const Vec<3, T> omega = s.rate(rotation{}), spin = inertia * omega;
-      r.value(momentum{}) += s.value(momentum{}) - turn * spin;
-      // Where the rates of what is known are asked for, at the start: that of the relation itself.
-      if (x.step == 0)
-        r.value(momentum{}) +=
-            s.rate(momentum{}) - turn * (inertia * s.second_rate(rotation{}) + skew(omega) * spin);
+      Vec<3, T> relation = s.value(momentum{}) - turn * spin;
+      r.value(momentum{}) += relation;
+      // Part of the relation, which is met, lets the rotation's equations contain the rotation itself. Where
+      // the rates of what is known are asked for, at the start, it is the rate of the relation.
+      double part = 1;
+      if (x.step > 0) {
+        part = 1 / (x.theta * x.step);
+      } else {
+        relation = s.rate(momentum{}) - turn * (inertia * s.second_rate(rotation{}) + skew(omega) * spin);
+        r.value(momentum{}) += relation;
+      }
+      r.value(rotation{}) += transpose(turn) * (s.rate(momentum{}) - part * relation);
     }
   }
 };
