@@ -45,7 +45,7 @@ output:
 TEST_CASE("so does a ball", "[study]") { ShippedRun("fsi/turning_ball"); }
 
 TEST_CASE("a disc between walls takes Faxen's force", "[study]") {
-  ShippedRun("fsi/towed_disc");
+  const ShippedRun shipped("fsi/towed_disc");
   // At order 1 the error falls with the cells.
   const auto speed = [](const std::string& options) {
     return ShippedRun("fsi/towed_disc", unchecked + "--set parameters.order=1 " + options)("speed");
@@ -58,7 +58,7 @@ TEST_CASE("a disc between walls takes Faxen's force", "[study]") {
 }
 
 TEST_CASE("a disc that settles does so alike on all numbers of ranks") {
-  ShippedRun("fsi/settling_disc");
+  const ShippedRun shipped("fsi/settling_disc");
   const std::string two_steps = unchecked + "--set time.end=0.06 ";
   const ShippedRun one("fsi/settling_disc", two_steps);
   CHECK(std::abs(one("angle")) > 1e-6);
