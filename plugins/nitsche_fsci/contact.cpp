@@ -69,7 +69,7 @@ class ContactCoupling final : public Coupling {
   [[nodiscard]] bool both() const { return parameters_.text("acts_on") == "both"; }
   template <int count>
   [[nodiscard]] Bodies<count> bodies(const CouplingSides& sides) const {
-    BodyPull pull = body_pull(parameters_, sides, 0, count - 1 > 0 ? 1 : -1, parameters_.number("penalty"));
+    BodyPull pull = body_pull(parameters_, sides, 0, count == 2 ? 1 : -1, parameters_.number("penalty"));
     if (!pull.own && !pull.other && parameters_.text("adjoint") != "none")
       throw Error(parameters_.where("adjoint"), "rigid bodies have no stress, and no adjoint term of it");
     return {std::move(pull)};

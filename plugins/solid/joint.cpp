@@ -6,121 +6,48 @@
 #include <map>
 #include <optional>
 
-#include "rigid_motion.hpp"
+#include "joint_conditions.hpp"
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/base/diagnostics.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/scene/expression.hpp"
-#include "seam/term/fad.hpp"
 
 namespace seam::solid {
 namespace {
-
-/// Unknowns of two bodies: 0 to 5 translations and rotations of the one that is held, 6 to 11 of the other.
-constexpr int both = 12;
-using Number = Fad<both, double>;
-using Direction = Vec<3, double>;
-constexpr int other = 6;
-
-/// A point or a direction, and how it changes with each unknown's virtual motion: with translations, and with
-/// turns about the axes of the body.
-struct Moving {
-  Vec<3, Number> value;
-  std::array<Vec<3, Number>, both> motion{};
-};
-
-/// What a joint wants to be zero, m or 1, and how it changes with virtual motions.
-struct Condition {
-  Number value;
-  std::array<Number, both> motion{};
-};
-
-Moving operator-(const Moving& a, const Moving& b) {
-  Moving r{a.value - b.value};
-  for (int k = 0; k < both; ++k) r.motion[k] = a.motion[k] - b.motion[k];
-  return r;
-}
-
-Condition dot(const Moving& a, const Moving& b) {
-  Condition r{seam::dot(a.value, b.value)};
-  for (int k = 0; k < both; ++k)
-    r.motion[k] = seam::dot(a.motion[k], b.value) + seam::dot(a.value, b.motion[k]);
-  return r;
-}
-
-Moving fixed(const Direction& direction) {
-  Moving r;
-  for (int i = 0; i < 3; ++i) r.value[i] = direction[i];
-  return r;
-}
-
-/// A body as conditions see it.
-class Partner {
- public:
-  /// What is at rest.
-  Partner() = default;
-  /// @param first number of its unknowns among those of both
-  Partner(const RigidUnknowns& unknowns, const RigidPosition& at, int first)
-      : first_(first), axis_(unknowns.first_axis()), dimension_(unknowns.exists(2) ? 3 : 2) {
-    Vec<3, Number> rotation;
-    for (int k = 0; k < 3; ++k) rotation[k] = Number(at.rotation[k]);
-    for (int k = axis_; k < 3; ++k) rotation[k] = Number(at.rotation[k], first + 3 + k);
-    turn_ = at.turn(rotation);
-    angle_ = rotation[2];
-    for (int i = 0; i < dimension_; ++i) {
-      centre_[i] = at.centre.position[i];
-      translation_[i] = Number(at.translation[i], first + i);
-    }
-  }
-  [[nodiscard]] Moving point(const Direction& reference) const {
-    const Direction arm = reference - centre_;
-    Moving r = direction(arm);
-    for (int i = 0; i < 3; ++i) r.value[i] += centre_[i] + translation_[i];
-    for (int i = 0; i < dimension_; ++i) r.motion[first_ + i][i] = Number(1);
-    return r;
-  }
-  [[nodiscard]] Moving direction(const Direction& reference) const {
-    Moving r{turn_ * reference};
-    if (dimension_ == 0) return r;
-    const Mat<3, 3, Number> lever = -1.0 * (turn_ * skew(reference));
-    for (int k = axis_; k < 3; ++k)
-      for (int i = 0; i < 3; ++i) r.motion[first_ + 3 + k][i] = lever(i, k);
-    return r;
-  }
-  /// In the plane, rad.
-  [[nodiscard]] Condition angle() const {
-    Condition r{angle_};
-    if (dimension_ != 0) r.motion[first_ + 5] = Number(1);
-    return r;
-  }
-
- private:
-  int first_ = 0, axis_ = 0, dimension_ = 0;
-  Mat<3, 3, Number> turn_ = rotation_tensor(turned(no_rotation, Vec<3, Number>{}));
-  Direction centre_{};
-  Vec<3, Number> translation_{};
-  Number angle_{0.0};
-};
-
-/// Two directions normal to one, and to each other.
-std::array<Direction, 2> normals_of(const Direction& axis) {
-  int least = 0;
-  for (int i = 1; i < 3; ++i)
-    if (std::abs(axis[i]) < std::abs(axis[least])) least = i;
-  Direction start{};
-  start[least] = 1;
-  Direction first = skew(axis) * start;
-  first = (1 / std::sqrt(seam::dot(first, first))) * first;
-  return {first, skew(axis) * first};
-}
 
 /// A node of a body that deforms, and its part of the mean displacement.
 struct Weighed {
   UnknownPlace place;  ///< component 0 of the displacement
   double weight = 0;
-  std::array<double, 3> displacement{}, position{};
+  Direction displacement{};
 };
+
+/// Where all is at an instant, known on all ranks.
+struct Present {
+  RigidPosition body;
+  std::optional<RigidPosition> partner;  ///< another rigid body
+  std::vector<Weighed> nodes;            ///< of a boundary
+  Direction mean{};                      ///< displacement of the boundary
+  double time = 0;
+
+  [[nodiscard]] Present at_start() const {
+    Present start = *this;
+    start.body = body.at_start();
+    if (partner) start.partner = partner->at_start();
+    return start;
+  }
+  /// Of one of the unknowns of both; of a boundary the mean.
+  [[nodiscard]] double value(int k) const {
+    if (k >= other && !partner) return mean[k - other];
+    const RigidPosition& at = k < other ? body : *partner;
+    return k % other < 3 ? at.translation[k % other] : at.rotation[k % other - 3];
+  }
+};
+
+/// What Gauss-Jordan elimination works on.
+std::array<Number, both>& entries(Condition& row) { return row.motion; }
+std::array<double, both + 1>& entries(std::array<double, both + 1>& row) { return row; }
 
 /// Holds a rigid body to another one, to the ground or to a boundary of a body that deforms: as many of its
 /// unknowns follow from the rest as the joint takes freedoms.
@@ -160,25 +87,22 @@ class Joint final : public Constraint {
   }
 
   void tie(Ties& ties, const TimePoint& time) const override {
-    const RigidPosition at = body_.present(ties);
-    std::optional<RigidPosition> at_other;
-    if (to_) at_other = to_->present(ties);
-    const std::vector<Weighed> nodes = deforming_ != nullptr ? boundary_nodes(ties) : std::vector<Weighed>{};
+    Present present{body_.present(ties), std::nullopt, {}, {}, time.time};
+    if (to_) present.partner = to_->present(ties);
+    if (deforming_ != nullptr) present.nodes = boundary_nodes(ties);
+    for (const Weighed& node : present.nodes) present.mean += node.weight * node.displacement;
     together(*communicator_, [&] {
       if (!body_.owned()) return;
       // Which unknowns follow does not change within a step: one that is as good as another would come and
       // go.
-      std::optional<RigidPosition> other_start;
-      if (at_other) other_start = at_other->at_start();
-      const std::vector<int> following = choose(conditions(at.at_start(), other_start, nodes, time.time));
-      solve(ties, conditions(at, at_other, nodes, time.time), following, at, at_other, nodes);
+      solve(ties, present, conditions(present), choose(conditions(present.at_start())));
     });
   }
 
  private:
   /// @throws Error where keys do not go together
   void require() {
-    communicator_ = &deforming_or_body().mesh().communicator();
+    communicator_ = &body_.field().mesh().communicator();
     if (kind_ == "slide" && !axis_) throw Error(where_, "a joint that slides needs the direction `axis`");
     if (axis_ && dimension_ == 2 && kind_ == "hinge")
       throw Error(where_, "in the plane a hinge has no `axis`: what is held turns in the plane");
@@ -194,9 +118,6 @@ class Joint final : public Constraint {
           "`on`) and join that one");
     if (deforming_ != nullptr && at_)
       throw Error(where_, "`at` is for joints between points; on a boundary it is the middle");
-  }
-  [[nodiscard]] const Field& deforming_or_body() const {
-    return deforming_ != nullptr ? *deforming_ : body_.field();
   }
 
   /// Parts of nodes in the mean over the boundary, and its middle.
@@ -234,29 +155,22 @@ class Joint final : public Constraint {
       if (weight == 0) continue;
       Weighed& entry =
           own.emplace_back(Weighed{ties.place(*deforming_, place_.block, node, place_.offset), weight});
-      for (int d = 0; d < dimension_; ++d) {
+      for (int d = 0; d < dimension_; ++d)
         entry.displacement[d] =
             block.now.value[static_cast<std::size_t>(node) * block.size + place_.offset + d];
-        entry.position[d] = block.space->position(node)[d];
-      }
     }
     return communicator_->gather_all(own);
   }
 
-  [[nodiscard]] std::vector<Condition> conditions(const RigidPosition& at,
-                                                  const std::optional<RigidPosition>& at_other,
-                                                  const std::vector<Weighed>& nodes, double time) const {
-    const Partner body(body_, at, 0);
-    const Partner partner = to_ ? Partner(*to_, *at_other, other) : Partner();
+  [[nodiscard]] std::vector<Condition> conditions(const Present& present) const {
+    const Partner body(body_, present.body, 0);
+    const Partner partner = to_ ? Partner(*to_, *present.partner, other) : Partner();
     Moving way = body.point(*at_) - partner.point(*at_);
-    if (deforming_ != nullptr)
-      for (int d = 0; d < dimension_; ++d) {
-        double mean = 0;
-        for (const Weighed& node : nodes) mean += node.weight * node.displacement[d];
-        way.value[d] -= Number(mean, other + d);
-        way.motion[other + d][d] -= Number(1);
-      }
-    const double given = motion_ ? (*motion_)(at_->c.data(), dimension_, time) : 0;
+    for (int d = 0; d < dimension_ && deforming_ != nullptr; ++d) {
+      way.value[d] -= Number(present.mean[d], other + d);
+      way.motion[other + d][d] -= Number(1);
+    }
+    const double given = motion_ ? (*motion_)(at_->c.data(), dimension_, present.time) : 0;
     std::vector<Condition> all;
     if (kind_ == "slide") {
       for (const Direction& normal : normals_of(*axis_))
@@ -309,44 +223,36 @@ class Joint final : public Constraint {
 
   /// Solves the conditions for unknowns of the body, as many as there are: Gauss-Jordan elimination, once of
   /// how values change and once of how virtual motions do.
-  void solve(Ties& ties, std::vector<Condition> rows, const std::vector<int>& pivot, const RigidPosition& at,
-             const std::optional<RigidPosition>& at_other, const std::vector<Weighed>& nodes) const {
+  void solve(Ties& ties, const Present& present, std::vector<Condition> rows,
+             const std::vector<int>& pivot) const {
     std::vector<std::array<double, both + 1>> values(rows.size());  // the last: what is left
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      for (int k = 0; k < both; ++k) values[r][k] = rows[r].value.d[k];
+      std::ranges::copy(rows[r].value.d, values[r].begin());
       values[r][both] = rows[r].value.v;
     }
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      reduce(
-          values, r, pivot[r], [](auto& row) -> auto& { return row; });
-      reduce(
-          rows, r, pivot[r], [](Condition & row) -> auto& { return row.motion; });
+      reduce(values, r, pivot[r]);
+      reduce(rows, r, pivot[r]);
     }
-    const auto now = [&](int k) {
-      if (k < other) return k < 3 ? at.translation[k] : at.rotation[k - 3];
-      if (at_other)
-        return k < other + 3 ? at_other->translation[k - other] : at_other->rotation[k - other - 3];
-      double mean = 0;
-      for (const Weighed& node : nodes) mean += node.weight * node.displacement[k - other];
-      return mean;
-    };
-    const auto is_pivot = [&](int k) { return std::ranges::find(pivot, k) != pivot.end(); };
+    const auto stays = [&](int k) { return exists(k) && std::ranges::find(pivot, k) == pivot.end(); };
     for (std::size_t r = 0; r < rows.size(); ++r) {
       std::vector<TiedTo> to;
-      double constant = now(pivot[r]) - values[r][both];
+      double constant = present.value(pivot[r]) - values[r][both];
       for (int k = 0; k < both; ++k) {
-        if (!exists(k) || is_pivot(k)) continue;
-        constant += values[r][k] * now(k);
-        add(to, k, -values[r][k], -rows[r].motion[k].v, at, at_other, nodes);
+        if (!stays(k)) continue;
+        constant += values[r][k] * present.value(k);
+        add(to, present, k, -values[r][k], -rows[r].motion[k].v);
       }
-      ties.tie(body_.place(at, pivot[r]), std::move(to), constant);
-      for (int k = 0; k < both; ++k)
-        for (int l = 0; l < both; ++l) {
-          if (!is_rigid(k) || !is_rigid(l) || is_pivot(k) || is_pivot(l)) continue;
+      ties.tie(body_.place(present.body, pivot[r]), std::move(to), constant);
+      // How things move changes with unknowns of rigid bodies alone.
+      const int rigid = deforming_ != nullptr ? other : both;
+      for (int k = 0; k < rigid; ++k)
+        for (int l = 0; l < rigid; ++l) {
+          if (!stays(k) || !stays(l)) continue;
           double change = rows[r].motion[k].d[l];
           for (std::size_t p = 0; p < rows.size(); ++p)
             change -= rows[r].motion[k].d[pivot[p]] * values[p][l];
-          ties.add_change(place(k, at, at_other), place(l, at, at_other), -change);
+          ties.add_change(place(present, k), place(present, l), -change);
         }
     }
   }
@@ -356,8 +262,7 @@ class Joint final : public Constraint {
     std::vector<int> chosen;
     for (std::size_t r = 0; r < rows.size(); ++r) {
       chosen.push_back(choose(rows[r], chosen));
-      reduce(
-          rows, r, chosen[r], [](Condition & row) -> auto& { return row.motion; });
+      reduce(rows, r, chosen[r]);
     }
     return chosen;
   }
@@ -378,14 +283,14 @@ class Joint final : public Constraint {
   }
 
   /// Lets one row alone have an unknown, with the factor 1.
-  template <class Rows, class Entries>
-  static void reduce(Rows& rows, std::size_t r, int pivot, const Entries& entries_of) {
-    auto& own = entries_of(rows[r]);
+  template <class Rows>
+  static void reduce(Rows& rows, std::size_t r, int pivot) {
+    auto& own = entries(rows[r]);
     const auto factor = own[pivot];
     for (auto& entry : own) entry = entry / factor;
     for (std::size_t s = 0; s < rows.size(); ++s) {
       if (s == r) continue;
-      auto& row = entries_of(rows[s]);
+      auto& row = entries(rows[s]);
       const auto part = row[pivot];
       for (std::size_t k = 0; k < row.size(); ++k) row[k] = row[k] - part * own[k];
     }
@@ -396,21 +301,17 @@ class Joint final : public Constraint {
     if (to_) return to_->exists(k - other);
     return deforming_ != nullptr && k - other < dimension_;
   }
-  /// Whether it is an unknown of a rigid body: how things move changes with no others.
-  [[nodiscard]] bool is_rigid(int k) const { return exists(k) && (k < other || to_); }
-  [[nodiscard]] UnknownPlace place(int k, const RigidPosition& at,
-                                   const std::optional<RigidPosition>& at_other) const {
-    return k < other ? body_.place(at, k) : to_->place(*at_other, k - other);
+  [[nodiscard]] UnknownPlace place(const Present& present, int k) const {
+    return k < other ? body_.place(present.body, k) : to_->place(*present.partner, k - other);
   }
-  void add(std::vector<TiedTo>& to, int k, double coefficient, double handed, const RigidPosition& at,
-           const std::optional<RigidPosition>& at_other, const std::vector<Weighed>& nodes) const {
+  void add(std::vector<TiedTo>& to, const Present& present, int k, double coefficient, double handed) const {
     // Zeros of a moment would come and go with the pattern; what a node is to the mean stays.
     if (k < other || to_) {
-      to.push_back({place(k, at, at_other), coefficient, handed});
+      to.push_back({place(present, k), coefficient, handed});
       return;
     }
-    for (const Weighed& node : nodes) {
-      if (coefficient == 0 && handed == 0) continue;
+    if (coefficient == 0 && handed == 0) return;
+    for (const Weighed& node : present.nodes) {
       UnknownPlace component = node.place;
       component.component += k - other;
       to.push_back({component, node.weight * coefficient, node.weight * handed});

@@ -92,9 +92,8 @@ void RigidSurface::build(FieldSetup& setup) const {
 
 void declare_rigid(Registry& registry) {
   Schema schema(
-      "The points of a field, or of one of its boundaries, move with a rigid body, and what acts on them "
-      "acts "
-      "on it.");
+      "The points of a field, or of one of its boundaries, move with a rigid body, and what acts on "
+      "them acts on it.");
   schema.reference("field", "A field with a displacement: a `rigid_surface`, or a body that deforms",
                    "field");
   schema.text("on", "Only the points of this boundary, as of a deformable body that is fixed to a rigid one")
