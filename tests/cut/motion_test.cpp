@@ -14,20 +14,20 @@ struct Triple {
   explicit Triple(const Mesh& mesh) : minus(mesh), at(mesh), plus(mesh) {}
 };
 
-/// Derivative of entry k of a point along the motion `direction` of the surface's points.
-double along(const std::vector<double>& derivative, std::size_t k, const Surface& surface, int facet,
+/// Derivative of a number along the motion `direction` of the surface's points.
+template <int dim>
+double along(const Moves<dim, 1>& number, const Surface& surface, int facet,
              const std::vector<double>& direction) {
-  const int dim = surface.dimension;
   double sum = 0;
   for (int v = 0; v < dim; ++v)
     for (int c = 0; c < dim; ++c)
-      sum += derivative[k * dim * dim + v * dim + c] * direction[surface.facets[facet * dim + v] * dim + c];
+      sum += number.d[v * dim + c] * direction[surface.facets[facet * dim + v] * dim + c];
   return sum;
 }
 
 /// @return points compared
+template <int dim>
 int compare(const Triple& cuts, const Surface& surface, const std::vector<double>& direction, double step) {
-  const int dim = surface.dimension;
   InterfaceRule rule, before, after;
   InterfaceMotion motion;
   int compared = 0;
@@ -45,22 +45,24 @@ int compare(const Triple& cuts, const Surface& surface, const std::vector<double
     double swept = 0;
     for (int q = 0; q < rule.count(); ++q, ++compared) {
       const int facet = rule.facet[q];
+      const MovingPoint<dim, 1>& point = motion.points<dim>()[q];
+      const auto move_of = [&](const Moves<dim, 1>& number) {
+        return along<dim>(number, surface, facet, direction);
+      };
       const auto here = static_cast<std::size_t>(q);
       double normal_motion = 0;
       for (int i = 0; i < dim; ++i) {
         const std::size_t k = here * dim + i;
-        const double move = along(motion.position, k, surface, facet, direction);
+        const double move = move_of(point.position[i]);
         same(move, after.position[k], before.position[k]);
-        same(along(motion.normal, k, surface, facet, direction), after.normal[k], before.normal[k]);
+        same(move_of(point.normal[i]), after.normal[k], before.normal[k]);
         normal_motion += move * rule.normal[k];
       }
       for (int i = 0; i + 1 < dim; ++i) {
         const std::size_t k = here * (dim - 1) + i;
-        same(along(motion.facet_reference, k, surface, facet, direction), after.facet_reference[k],
-             before.facet_reference[k]);
+        same(move_of(point.on_facet[i]), after.facet_reference[k], before.facet_reference[k]);
       }
-      same(rule.weight[q] * along(motion.relative_weight, here, surface, facet, direction), after.weight[q],
-           before.weight[q]);
+      same(rule.weight[q] * move_of(point.relative_weight), after.weight[q], before.weight[q]);
       swept += rule.weight[q] * normal_motion;
     }
     // The fluid grows by what the interface sweeps.
@@ -83,7 +85,8 @@ int move_at_random(const Mesh& mesh, const Surface& surface, std::mt19937& rando
   cut_at(cuts.minus, -step);
   cut_at(cuts.at, 0);
   cut_at(cuts.plus, step);
-  return compare(cuts, surface, direction, step);
+  return mesh.dimension() == 2 ? compare<2>(cuts, surface, direction, step)
+                               : compare<3>(cuts, surface, direction, step);
 }
 
 }  // namespace

@@ -22,10 +22,6 @@ std::vector<int> owned_facets(const BodySurface& surface) {
   return result;
 }
 
-void append(const std::vector<double>& from, std::vector<double>& to) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
 }  // namespace
 
 ContactDomain::ContactDomain(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
@@ -80,8 +76,7 @@ bool ContactDomain::follow(double time) {
 }
 
 void ContactDomain::add_facet(const OppositePoints& opposite, int facet) {
-  const int dim = own_->body().mesh().dimension(), moves = static_cast<int>(movers_.size()) * dim * dim;
-  const Vector normal = opposite.normal(facet);
+  const int dim = own_->body().mesh().dimension();
   const double area = opposite.area(facet);
   for (const OppositePoints::Stretch& stretch : opposite.stretches(facet))
     for (int q = 0; q < rule_->count(); ++q) {
@@ -90,30 +85,34 @@ void ContactDomain::add_facet(const OppositePoints& opposite, int facet) {
       if (dim == 2) on_facet[0] = stretch.from.share + on_facet[0] * stretch.length();
       const auto hit = opposite.find(facet, on_facet.data());
       if (!hit) continue;
-      std::vector<double> slide, growth;
-      if (dim == 2) opposite.stretch_motion(*hit, stretch, moves, slide, growth);
-      PairMotion change = pair_motion(hit->pair, moves, slide);
-      for (std::size_t m = 0; m < growth.size(); ++m) change.relative_weight[m] += growth[m];
-      slide.resize(static_cast<std::size_t>(dim - 1) * moves, 0.0);
-
-      PairPoints& to = points_of(facet, other_ ? other_->group(hit->facet) : -1);
-      to.own.weight.push_back(area * stretch.length() * rule_->weights[q]);
-      own_->to_cell(facet, on_facet.data(), to.own.reference);
-      to.normal.insert(to.normal.end(), normal.begin(), normal.begin() + dim);
-      to.gap.push_back(hit->pair.gap);
-      PointMotion& motion = to.motion;
-      motion.node.insert(motion.node.end(), own_->places(facet), own_->places(facet) + dim);
-      motion.position.resize(motion.position.size() + static_cast<std::size_t>(dim) * moves, 0.0);
-      own_->motion_to_cell(facet, slide.data(), moves, motion.reference[0]);
-      append(change.normal, motion.normal);
-      append(change.relative_weight, motion.relative_weight);
-      append(change.gap, motion.gap);
-      if (!other_) continue;
-      other_->to_cell(hit->facet, hit->pair.on_opposite.data(), to.opposite.reference);
-      to.opposite.weight = to.own.weight;
-      motion.node.insert(motion.node.end(), other_->places(hit->facet), other_->places(hit->facet) + dim);
-      other_->motion_to_cell(hit->facet, change.on_opposite.data(), moves, motion.reference[1]);
+      const double weight = area * stretch.length() * rule_->weights[q];
+      if (dim == 2)
+        add_point(*hit, weight, opposite.moving<2>(*hit, stretch));
+      else
+        add_point(*hit, weight, opposite.moving<3>(*hit, stretch));
     }
+}
+
+template <int dim>
+void ContactDomain::add_point(const OppositePoints::Hit& hit, double weight, const MovingPair<dim>& moving) {
+  const std::size_t moves = movers_.size() * dim * dim;
+  PairPoints& to = points_of(hit.own_facet, other_ ? other_->group(hit.facet) : -1);
+  to.own.weight.push_back(weight);
+  own_->to_cell(hit.own_facet, hit.pair.on_own.data(), to.own.reference);
+  for (const auto& component : moving.normal.c) to.normal.push_back(component.v);
+  to.gap.push_back(hit.pair.gap);
+  PointMotion& motion = to.motion;
+  motion.node.insert(motion.node.end(), own_->places(hit.own_facet), own_->places(hit.own_facet) + dim);
+  motion.position.resize(motion.position.size() + dim * moves, 0.0);
+  append_moves(own_->moved_in_cell<dim>(hit.own_facet, moving.on_own), moves, motion.reference[0]);
+  append_moves(moving.normal, moves, motion.normal);
+  append_moves(moving.relative_weight, moves, motion.relative_weight);
+  append_moves(moving.gap, moves, motion.gap);
+  if (!other_) return;
+  other_->to_cell(hit.facet, hit.pair.on_opposite.data(), to.opposite.reference);
+  to.opposite.weight = to.own.weight;
+  motion.node.insert(motion.node.end(), other_->places(hit.facet), other_->places(hit.facet) + dim);
+  append_moves(other_->moved_in_cell<dim>(hit.facet, moving.on_opposite), moves, motion.reference[1]);
 }
 
 /// The element of a facet and a cell opposite to it, among those of the facet under work.

@@ -50,6 +50,8 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] Surface opposite_at(double time) const { return other_ ? other_->now() : obstacle_(time); }
   void measure_cells();
   void add_facet(const OppositePoints& opposite, int facet);
+  template <int dim>
+  void add_point(const OppositePoints::Hit& hit, double weight, const MovingPair<dim>& moving);
   PairPoints& points_of(int facet, int opposite_group);
 
   std::shared_ptr<const BodySurface> own_, other_;

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/contact/facet_vertices.hpp"
 #include "seam/cut/cut_boundary.hpp"
 
 namespace seam {
@@ -18,24 +19,6 @@ using namespace cutting;
 namespace {
 
 constexpr double rounding = 1e-9;  ///< of shares of a facet
-
-/// Appends rows of `width` numbers, widened by zeros.
-void append_rows(const double* from, std::size_t rows, std::size_t width, std::size_t wide,
-                 std::vector<double>& to) {
-  for (std::size_t r = 0; r < rows; ++r) {
-    to.insert(to.end(), from + r * width, from + (r + 1) * width);
-    to.resize(to.size() + wide - width, 0.0);
-  }
-}
-
-void append(const std::vector<double>& from, std::vector<double>& to) {
-  to.insert(to.end(), from.begin(), from.end());
-}
-
-PairMotion no_motion(std::size_t dim, std::size_t moves) {
-  return {std::vector<double>(dim * moves), std::vector<double>(moves), std::vector<double>(moves),
-          std::vector<double>((dim - 1) * moves)};
-}
 
 /// What a facet's wet stretches leave over.
 std::vector<std::pair<double, double>> rest(std::vector<std::pair<double, double>> wet) {
@@ -74,7 +57,11 @@ bool EmbeddedSurface::follow() {
   if (field_->cut())
     for (const int cell : field_->cut()->cut_cells()) {
       if (cell >= field_->mesh().owned_cells() || !field_->active_cells()[cell]) continue;
-      for (int part = 0; part < field_->parts(cell); ++part) add_wet(cell, part, opposite);
+      for (int part = 0; part < field_->parts(cell); ++part)
+        if (dimension() == 2)
+          add_wet<2>(cell, part, opposite);
+        else
+          add_wet<3>(cell, part, opposite);
     }
   add_closed(opposite);
   double least_gap = 0;
@@ -109,8 +96,8 @@ std::vector<double> EmbeddedSurface::divide(int facet, double from, double to, c
   return places;
 }
 
+template <int dim>
 void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite) {
-  const auto dim = static_cast<std::size_t>(dimension()), moves = dim * dim;
   InterfaceRule rule;
   InterfaceMotion motion;
   std::map<int, std::vector<OppositePoints::Break>> inner;  // by facet
@@ -123,7 +110,8 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
     if (rule.body[q] != number_) continue;
     const auto at = static_cast<std::size_t>(q);
     const int facet = rule.facet[q];
-    if (dim == 3) {
+    const MovingPoint<dim, 1>& on_cut = motion.points<dim>()[at];
+    if constexpr (dim == 3) {
       wet_.push_back({facet, 0, 0, rule.weight[q]});
     } else {
       const auto [from, to] = std::minmax(rule.span[2 * at], rule.span[2 * at + 1]);
@@ -134,7 +122,7 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
     auto hit = opposite.find(facet, on_facet);
     const bool is_opposite = hit.has_value();
     OppositePoints::Stretch stretch{};
-    if (dim == 2) {
+    if constexpr (dim == 2) {
       stretch = stretch_at(facet, &rule.span[2 * at], inner[facet], opposite);
       if (!hit && (stretch.from.follows() || stretch.to.follows()))
         hit = opposite.far_hit(facet, on_facet, std::max(stretch.from.facet, stretch.to.facet));
@@ -158,7 +146,6 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
                  found->second.second,
                  static_cast<int>(element.outside.weight.size())};
     std::copy_n(&rule.position[at * dim], dim, wet_point.position.begin());
-    const std::size_t wide = hit ? 2 * moves : moves;
     element.outside.weight.push_back(rule.weight[q]);
     for (std::size_t d = 0; d < dim; ++d) {
       element.outside.reference.push_back(rule.reference[at * dim + d]);
@@ -166,21 +153,18 @@ void EmbeddedSurface::add_wet(int cell, int part, const OppositePoints& opposite
     }
     own_->to_cell(facet, on_facet, element.own.reference);
     element.own.weight.push_back(rule.weight[q]);
-    if (hit) element.other.weight.push_back(rule.weight[q]);
-    PointMotion& moving = element.motion;
-    const int* places = own_->places(facet);
-    moving.node.insert(moving.node.end(), places, places + dim);
-    append_rows(&motion.position[at * dim * moves], dim, moves, wide, moving.position);
-    append_rows(&motion.normal[at * dim * moves], dim, moves, wide, moving.normal);
-    append_rows(&motion.relative_weight[at * moves], 1, moves, wide, moving.relative_weight);
-    std::vector<double> slide;
-    append_rows(&motion.facet_reference[at * (dim - 1) * moves], dim - 1, moves, wide, slide);
-    if (hit && dim == 2) add_edge_motion(*hit, stretch, &motion.span[8 * at], opposite, slide, moving);
-    own_->motion_to_cell(facet, slide.data(), static_cast<int>(wide), moving.reference[1]);
-    if (is_opposite)
-      add_partner(element, *hit, pair_motion(hit->pair, static_cast<int>(wide), slide));
-    else if (hit)
-      add_partner(element, *hit, no_motion(dim, wide));
+    if (!hit) {
+      add_motion<dim>(element, facet, on_cut, dim * dim);
+      continue;
+    }
+    element.other.weight.push_back(rule.weight[q]);
+    MovingPair<dim> pair(hit->pair);
+    MovingPoint<dim, 2> moving = widened(on_cut);
+    if constexpr (dim == 2) follow_ends(*hit, stretch, opposite, pair, moving);
+    add_motion<dim>(element, facet, moving, 2 * dim * dim);
+    pair.on_own = moving.on_facet;
+    if (is_opposite) pair.look();
+    add_partner(element, *hit, pair, 2 * dim * dim);
   }
 }
 
@@ -196,44 +180,48 @@ OppositePoints::Stretch EmbeddedSurface::stretch_at(int facet, const double* spa
 }
 
 /// In the plane: points keep their share of a piece, and the cut lets one that ends on another body keep its
-/// place on the facet. Adds how such ends follow that body, and how inner ends follow the vertices opposite.
-void EmbeddedSurface::add_edge_motion(const OppositePoints::Hit& hit, OppositePoints::Stretch stretch,
-                                      const double* span_motion, const OppositePoints& opposite,
-                                      std::vector<double>& slide, PointMotion& motion) {
+/// place on the facet. Lets such ends follow that body, and inner ends the vertices opposite.
+void EmbeddedSurface::follow_ends(const OppositePoints::Hit& hit, OppositePoints::Stretch stretch,
+                                  const OppositePoints& opposite, MovingPair<2>& pair,
+                                  MovingPoint<2, 2>& point) {
   // A point knows one facet only.
   for (OppositePoints::Break* end : {&stretch.from, &stretch.to})
     if (end->crosses() && end->facet != hit.facet) *end = {end->share};
   if (!stretch.from.follows() && !stretch.to.follows()) return;
-  std::vector<double> more, growth;
-  opposite.stretch_motion(hit, stretch, 8, more, growth);
-  const double place = (hit.pair.on_own[0] - stretch.from.share) / stretch.length();
-  for (int m = 0; m < 4; ++m) {
-    const double from = stretch.from.vertex >= 0 ? span_motion[m] : 0.0;
-    const double to = stretch.to.vertex >= 0 ? span_motion[4 + m] : 0.0;
-    more[m] -= (1 - place) * from + place * to;
-    growth[m] -= (to - from) / stretch.length();
-  }
-  const Vector along = hit.pair.own[1] - hit.pair.own[0];
-  double* position = motion.position.data() + motion.position.size() - 16;
-  double* weight = motion.relative_weight.data() + motion.relative_weight.size() - 8;
-  for (int m = 0; m < 8; ++m) {
-    slide[m] += more[m];
-    weight[m] += growth[m];
-    for (int d = 0; d < 2; ++d) position[d * 8 + m] += more[m] * along[d];
-  }
+  const auto end_at = [&](const OppositePoints::Break& end, Moves<2, 2> on_cut) {
+    if (end.follows()) return opposite.place_of(end, hit, pair);
+    on_cut.v = end.share;
+    return on_cut;
+  };
+  pair.keep_part(end_at(stretch.from, point.span[0]), end_at(stretch.to, point.span[1]));
+  point.on_facet = pair.on_own;
+  point.position = point_on<2>(pair.own, pair.on_own);
+  point.relative_weight = pair.relative_weight;
 }
 
+/// Of the last point added.
+template <int dim, int facets>
+void EmbeddedSurface::add_motion(Element& element, int facet, const MovingPoint<dim, facets>& point,
+                                 std::size_t moves) const {
+  PointMotion& motion = element.motion;
+  const int* places = own_->places(facet);
+  motion.node.insert(motion.node.end(), places, places + dim);
+  append_moves(point.position, moves, motion.position);
+  append_moves(point.normal, moves, motion.normal);
+  append_moves(point.relative_weight, moves, motion.relative_weight);
+  append_moves(own_->moved_in_cell<dim>(facet, point.on_facet), moves, motion.reference[1]);
+}
+
+template <int dim>
 void EmbeddedSurface::add_partner(Element& element, const OppositePoints::Hit& hit,
-                                  const PairMotion& change) const {
-  const int dim = dimension();
+                                  const MovingPair<dim>& pair, std::size_t moves) const {
   other_->to_cell(hit.facet, hit.pair.on_opposite.data(), element.other.reference);
   element.gap.push_back(hit.pair.gap);
   PointMotion& motion = element.motion;
   const int* places = other_->places(hit.facet);
   motion.node.insert(motion.node.end(), places, places + dim);
-  other_->motion_to_cell(hit.facet, change.on_opposite.data(), static_cast<int>(change.gap.size()),
-                         motion.reference[2]);
-  append(change.gap, motion.gap);
+  append_moves(other_->moved_in_cell<dim>(hit.facet, pair.on_opposite), moves, motion.reference[2]);
+  append_moves(pair.gap, moves, motion.gap);
 }
 
 void EmbeddedSurface::add_closed(const OppositePoints& opposite) {
@@ -256,7 +244,11 @@ void EmbeddedSurface::add_closed(const OppositePoints& opposite) {
         fmt::format("no point of the surface of '{}' is in the field '{}': nothing says what "
                     "its closed parts push against",
                     own_->body().name(), field_->name()));
-  for (const ClosedPoint& point : points) add_closed_point(point, edges, opposite);
+  for (const ClosedPoint& point : points)
+    if (dimension() == 2)
+      add_closed_point<2>(point, edges, opposite);
+    else
+      add_closed_point<3>(point, edges, opposite);
 }
 
 /// Bodies may overlap a little, and a solution in which they have passed through each other solves all
@@ -306,14 +298,12 @@ void EmbeddedSurface::find_closed(int facet, const std::vector<Wet>& wet, const 
   std::for_each(points.begin() + first, points.end(), [&](ClosedPoint& point) { point.weight *= scale; });
 }
 
+template <int dim>
 void EmbeddedSurface::add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
                                        const OppositePoints& opposite) {
-  const auto dim = static_cast<std::size_t>(dimension()), moves = 2 * dim * dim;
   const auto& [hit, stretch, weight] = point;
   const int facet = hit.own_facet;
-  const FacetPair& pair = hit.pair;
-  Vector x = pair.own[0];
-  for (std::size_t k = 1; k < dim; ++k) x = x + pair.on_own[k - 1] * (pair.own[k] - pair.own[0]);
+  const Vector x = point_on_facet(dim, hit.pair.own, hit.pair.on_own.data());
   const auto nearest = std::min_element(edges.begin(), edges.end(), [&](const Edge& a, const Edge& b) {
     return dot(a.position - x, a.position - x) < dot(b.position - x, b.position - x);
   });
@@ -336,33 +326,22 @@ void EmbeddedSurface::add_closed_point(const ClosedPoint& point, const std::vect
     found = all.rbegin();
   }
   Element& element = *found;
-  std::vector<double> slide, growth;
-  if (dim == 2) opposite.stretch_motion(hit, stretch, static_cast<int>(moves), slide, growth);
-  PairMotion change = pair_motion(pair, static_cast<int>(moves), slide);
-  for (std::size_t m = 0; m < growth.size(); ++m) change.relative_weight[m] += growth[m];
-  for (double& component : change.normal) component = -component;
-  slide.resize((dim - 1) * moves, 0.0);
-  // The moves of the two facets at the nearest wet point come behind those of the two facets here.
-  const auto widened = [&](const std::vector<double>& from) {
-    std::vector<double> to;
-    append_rows(from.data(), from.size() / moves, moves, 2 * moves, to);
-    return to;
-  };
-  change.gap = widened(change.gap);
-  change.on_opposite = widened(change.on_opposite);
-
   for (CutPoints* points :
        {&element.outside, &element.own, &element.other, &element.own_edge, &element.other_edge})
     points->weight.push_back(weight);
-  for (std::size_t d = 0; d < dim; ++d) element.normal.push_back(-opposite.normal(facet)[d]);
-  own_->to_cell(facet, pair.on_own.data(), element.own.reference);
+  const MovingPair<dim> pair = opposite.moving<dim>(hit, stretch);
+  for (const auto& component : pair.normal.c) element.normal.push_back(-component.v);
+  own_->to_cell(facet, hit.pair.on_own.data(), element.own.reference);
+  // Behind the moves of the two facets here come those of the two at the nearest wet point. Where the point
+  // is in space tells that one.
+  constexpr std::size_t moves = 4 * dim * dim;
   PointMotion& motion = element.motion;
   const int* places = own_->places(facet);
   motion.node.insert(motion.node.end(), places, places + dim);
-  own_->motion_to_cell(facet, widened(slide).data(), static_cast<int>(2 * moves), motion.reference[1]);
-  append(widened(change.normal), motion.normal);
-  append(widened(change.relative_weight), motion.relative_weight);
-  add_partner(element, hit, change);
+  append_moves(own_->moved_in_cell<dim>(facet, pair.on_own), moves, motion.reference[1]);
+  append_moves(-pair.normal, moves, motion.normal);
+  append_moves(pair.relative_weight, moves, motion.relative_weight);
+  add_partner(element, hit, pair, moves);
   add_edge(element, source, static_cast<std::size_t>(nearest->point));
 }
 

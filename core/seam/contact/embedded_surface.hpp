@@ -74,24 +74,28 @@ class EmbeddedSurface {
   };
   static std::vector<double> divide(int facet, double from, double to, const OppositePoints& opposite,
                                     std::vector<OppositePoints::Break>& moving);
+  template <int dim>
   void add_wet(int cell, int part, const OppositePoints& opposite);
   void add_closed(const OppositePoints& opposite);
   void find_closed(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
                    std::vector<ClosedPoint>& points) const;
   void refuse_passed(int facet, const double* on_facet, const OppositePoints& opposite) const;
+  template <int dim>
   void add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
                         const OppositePoints& opposite);
   /// @param span two ends of a wet stretch @param inner ends of stretches that are no ends of pieces
   static OppositePoints::Stretch stretch_at(int facet, const double* span,
                                             const std::vector<OppositePoints::Break>& inner,
                                             const OppositePoints& opposite);
-  /// Of the last point added. @param span_motion [2][move], of the stretch's ends where they keep their share
-  /// of the piece
-  static void add_edge_motion(const OppositePoints::Hit& hit, OppositePoints::Stretch stretch,
-                              const double* span_motion, const OppositePoints& opposite,
-                              std::vector<double>& slide, PointMotion& motion);
+  static void follow_ends(const OppositePoints::Hit& hit, OppositePoints::Stretch stretch,
+                          const OppositePoints& opposite, MovingPair<2>& pair, MovingPoint<2, 2>& point);
+  template <int dim, int facets>
+  void add_motion(Element& element, int facet, const MovingPoint<dim, facets>& point,
+                  std::size_t moves) const;
   void add_edge(Element& element, const Element& source, std::size_t point) const;
-  void add_partner(Element& element, const OppositePoints::Hit& hit, const PairMotion& change) const;
+  template <int dim>
+  void add_partner(Element& element, const OppositePoints::Hit& hit, const MovingPair<dim>& pair,
+                   std::size_t moves) const;
   [[nodiscard]] static Key key_of(const Element& element);
   [[nodiscard]] std::vector<Key> keys() const;
   [[nodiscard]] int dimension() const { return field_->mesh().dimension(); }

@@ -20,6 +20,14 @@ inline std::array<cutting::Vector, 3> facet_vertices(const Surface& surface, int
   return result;
 }
 
+/// Outward normal of a facet, as Surface has it, with the length of its area (twice that in space).
+inline cutting::Vector facet_normal(int dimension, const std::array<cutting::Vector, 3>& vertices) {
+  using namespace cutting;
+  const Vector first = vertices[1] - vertices[0];
+  if (dimension == 2) return {first[1], -first[0], 0};
+  return cross(first, vertices[2] - vertices[0]);
+}
+
 /// A point of a facet. @param on_facet shares of vertices 1 and 2, [dimension - 1]
 inline cutting::Vector point_on_facet(int dimension, const std::array<cutting::Vector, 3>& vertices,
                                       const double* on_facet) {

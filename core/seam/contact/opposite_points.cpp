@@ -145,36 +145,27 @@ OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
   return {share};
 }
 
-void OppositePoints::stretch_motion(const Hit& hit, const Stretch& stretch, int moves,
-                                    std::vector<double>& slide, std::vector<double>& growth) const {
-  const FacetPair& pair = hit.pair;
-  const int* vertex = &search_.surface().facets[static_cast<std::size_t>(hit.facet) * 2];
-  const Vector along = pair.own[1] - pair.own[0];
-  const double square = dot(along, along);
-  // Where the two lines cross, (x - c).across = 0 for a vertex c of the facet opposite.
-  const Vector edge = pair.opposite[1] - pair.opposite[0], across{edge[1], -edge[0], 0};
-  const auto crossing = [&](const Break& end, int m) {
-    const int facet = m / 4, k = m % 4 / 2, c = m % 2;
-    const double there = dot(pair.own[0] + end.share * along - pair.opposite[0], edge) / dot(edge, edge);
-    const double place = facet == 0 ? end.share : there;
-    return (facet == 0 ? -1 : 1) * (k == 1 ? place : 1 - place) * across[c] / dot(along, across);
-  };
-  // share = (v - a).along/square
-  const auto change = [&](const Break& end, int m) {
-    if (end.crosses()) return end.facet == hit.facet ? crossing(end, m) : 0.0;
-    if (!end.follows() || (end.vertex != vertex[0] && end.vertex != vertex[1])) return 0.0;
-    const int facet = m / 4, k = m % 4 / 2, c = m % 2;
-    if (facet == 1) return end.vertex == vertex[k] ? along[c] / square : 0.0;
-    const Vector v = pair.opposite[end.vertex == vertex[0] ? 0 : 1] - pair.own[0];
-    const double turn = (v[c] - 2 * end.share * along[c]) / square;
-    return k == 1 ? turn : -turn - along[c] / square;
-  };
-  const double place = (pair.on_own[0] - stretch.from.share) / stretch.length();
-  for (int m = 0; m < moves; ++m) {
-    const double from = change(stretch.from, m), to = change(stretch.to, m);
-    slide.push_back((1 - place) * from + place * to);
-    growth.push_back((to - from) / stretch.length());
-  }
+Moves<2, 2> OppositePoints::place_of(const Break& end, const Hit& hit, const MovingPair<2>& pair) const {
+  Moves<2, 2> place(end.share);
+  if (end.crosses() && end.facet == hit.facet)
+    place = way_to<2>(pair.opposite, pair.own[0], pair.own[1] - pair.own[0]);
+  for (int k = 0; k < 2 && end.vertex >= 0; ++k)
+    if (search_.surface().facets[static_cast<std::size_t>(hit.facet) * 2 + k] == end.vertex)
+      place = shares_of<2>(pair.own, pair.opposite[k])[0];
+  // Where it is now has been found already, with the lattice of the cut.
+  place.v = end.share;
+  return place;
 }
+
+template <int dim>
+MovingPair<dim> OppositePoints::moving(const Hit& hit, const Stretch& stretch) const {
+  MovingPair<dim> pair(hit.pair);
+  if constexpr (dim == 2) pair.keep_part(place_of(stretch.from, hit, pair), place_of(stretch.to, hit, pair));
+  pair.look();
+  return pair;
+}
+
+template MovingPair<2> OppositePoints::moving<2>(const Hit&, const Stretch&) const;
+template MovingPair<3> OppositePoints::moving<3>(const Hit&, const Stretch&) const;
 
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "seam/contact/facet_search.hpp"
-#include "seam/contact/gap_motion.hpp"
+#include "seam/contact/moving_pair.hpp"
 #include "seam/cut/lattice.hpp"
 #include "seam/surface/body_surface.hpp"
 
@@ -69,10 +69,12 @@ class OppositePoints {
   [[nodiscard]] std::vector<Stretch> stretches(int facet, double from = 0, double to = 1) const;
   /// In the plane: an end of a wet or a closed part of a facet, with the facet opposite that makes it.
   [[nodiscard]] Break end_at(int facet, double share) const;
-  /// How a point slides that keeps its part of a stretch, [move], and how the stretch's share of the facet
-  /// grows, where its ends follow the facet opposite.
-  void stretch_motion(const Hit& hit, const Stretch& stretch, int moves, std::vector<double>& slide,
-                      std::vector<double>& growth) const;
+  /// In the plane: where an end of a stretch is as the facets of a pair move; an end that follows another
+  /// facet than the pair's keeps its place.
+  [[nodiscard]] Moves<2, 2> place_of(const Break& end, const Hit& hit, const MovingPair<2>& pair) const;
+  /// The pair of a hit as its facets move: the point keeps its part of the stretch.
+  template <int dim>
+  [[nodiscard]] MovingPair<dim> moving(const Hit& hit, const Stretch& stretch) const;
 
  private:
   [[nodiscard]] std::array<cutting::Vector, 3> own_vertices(int facet) const;

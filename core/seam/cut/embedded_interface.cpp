@@ -58,22 +58,27 @@ class EmbeddedBoundary final : public CutBoundary {
   [[nodiscard]] int group(int facet) const override { return surface_->group(facet); }
   void add_partner(PointGroup& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
                    const std::vector<int>& points) const override {
-    const auto dim = static_cast<std::size_t>(surface_->body().mesh().dimension()), moves = dim * dim;
+    if (surface_->body().mesh().dimension() == 2)
+      add_partner<2>(piece, rule, motion, points);
+    else
+      add_partner<3>(piece, rule, motion, points);
+  }
+  template <int dim>
+  void add_partner(PointGroup& piece, const InterfaceRule& rule, const InterfaceMotion& motion,
+                   const std::vector<int>& points) const {
+    constexpr std::size_t moves = dim * dim;
     PointMotion& moving = piece.motion;
     for (const int q : points) {
       const int facet = rule.facet[q];
-      const auto at = static_cast<std::size_t>(q);
-      surface_->to_cell(facet, &rule.facet_reference[at * (dim - 1)], piece.partner.reference);
-      surface_->motion_to_cell(facet, &motion.facet_reference[at * (dim - 1) * moves],
-                               static_cast<int>(moves), moving.reference[1]);
+      const MovingPoint<dim, 1>& point = motion.points<dim>()[q];
+      surface_->to_cell(facet, &rule.facet_reference[static_cast<std::size_t>(q) * (dim - 1)],
+                        piece.partner.reference);
       const int* places = surface_->places(facet);
       moving.node.insert(moving.node.end(), places, places + dim);
-      const auto copy = [&](const std::vector<double>& from, std::size_t size, std::vector<double>& to) {
-        to.insert(to.end(), &from[at * size], &from[at * size] + size);
-      };
-      copy(motion.position, dim * moves, moving.position);
-      copy(motion.normal, dim * moves, moving.normal);
-      copy(motion.relative_weight, moves, moving.relative_weight);
+      append_moves(surface_->moved_in_cell<dim>(facet, point.on_facet), moves, moving.reference[1]);
+      append_moves(point.position, moves, moving.position);
+      append_moves(point.normal, moves, moving.normal);
+      append_moves(point.relative_weight, moves, moving.relative_weight);
     }
     piece.partner.weight = piece.weight;
   }

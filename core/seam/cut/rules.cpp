@@ -7,7 +7,7 @@
 #include "seam/cut/fitted_rule.hpp"
 #include "seam/cut/geometry.hpp"
 #include "seam/cut/moments.hpp"
-#include "seam/cut/piece_motion.hpp"
+#include "seam/cut/moving_piece.hpp"
 #include "seam/mesh/lagrange.hpp"
 #include "seam/mesh/quadrature.hpp"
 
@@ -150,14 +150,14 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
   };
   for (const FacetPiece& piece : cut.pieces) {
     const Vector* x = &cut.points[piece.first];
-    std::optional<PieceMotion> moving;
-    if (motion) moving.emplace(geometry_->outline, cut, piece, geometry_->bodies[piece.body]);
+    const Surface& body = geometry_->bodies[piece.body];
     if (dim == 2) {
+      std::optional<MovingPiece<2>> moving;
+      if (motion) moving.emplace(geometry_->outline, cut, piece, body);
       const double area = -piece.scale * dot(vector_area(dim, x[0], x[1], x[1]), piece.normal);
       if (area == 0) continue;
       auto [from, to] = std::pair(place(piece, x[0])[0], place(piece, x[1])[0]);
-      if (piece.handed_over)
-        shorten(from, to, area / facet_length(geometry_->bodies[piece.body], piece.facet));
+      if (piece.handed_over) shorten(from, to, area / facet_length(body, piece.facet));
       std::vector<double> ends{0};  // shares of the piece
       if (breaks && !piece.handed_over)
         for (const double at : breaks(piece.body, piece.facet, from, to))
@@ -167,21 +167,22 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
         for (int q = 0; q < base.count(); ++q) {
           const double s = ends[k] + base.points[q] * (ends[k + 1] - ends[k]);
           add(piece, x[0] + s * (x[1] - x[0]), area * base.weights[q] * (ends[k + 1] - ends[k]));
-          for (const double end : {ends[k], ends[k + 1]}) {
-            rule.span.push_back(from + end * (to - from));
-            if (moving) moving->append_share(end, motion->span);
-          }
-          if (moving) moving->append({0, 1, 1}, {1 - s, s, 0}, *motion);
+          for (const double end : {ends[k], ends[k + 1]}) rule.span.push_back(from + end * (to - from));
+          if (!moving) continue;
+          MovingPoint<2, 1>& point = motion->in_plane.emplace_back(moving->point({0, 1}, {1 - s, s}));
+          point.span = {{moving->on_facet(ends[k]), moving->on_facet(ends[k + 1])}};
         }
       continue;
     }
+    std::optional<MovingPiece<3>> moving;
+    if (motion) moving.emplace(geometry_->outline, cut, piece, body);
     for (int k = 1; k + 1 < piece.count; ++k) {
       const Vector &a = x[k], &b = x[k + 1];
       const double area = -piece.scale * dot(vector_area(dim, x[0], a, b), piece.normal);
       if (area == 0) continue;
       for (int q = 0; q < base.count(); ++q) {
         const double* s = &base.points[q * base.dimension];
-        if (moving) moving->append({0, k, k + 1}, {1 - s[0] - s[1], s[0], s[1]}, *motion);
+        if (moving) motion->in_space.push_back(moving->point({0, k, k + 1}, {1 - s[0] - s[1], s[0], s[1]}));
         add(piece, x[0] + s[0] * (a - x[0]) + s[1] * (b - x[0]), area * base.weights[q] * 2);
       }
     }

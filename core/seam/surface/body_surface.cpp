@@ -109,17 +109,6 @@ void BodySurface::to_cell(int facet, const double* on_facet, std::vector<double>
   }
 }
 
-void BodySurface::motion_to_cell(int facet, const double* on_facet, int moves,
-                                 std::vector<double>& reference) const {
-  const int dim = body_->mesh().dimension();
-  for (int d = 0; d < dim; ++d)
-    for (int m = 0; m < moves; ++m) {
-      double x = 0;
-      for (int k = 1; k < dim; ++k) x += on_facet[(k - 1) * moves + m] * edge(facet, k, d);
-      reference.push_back(x);
-    }
-}
-
 void BodySurface::find_places() {
   const int dim = body_->mesh().dimension();
   const Space& space = *body_->blocks()[place_.block].space;

@@ -8,6 +8,7 @@
 #include "seam/scene/parameters.hpp"
 #include "seam/scene/schema.hpp"
 #include "seam/surface/body.hpp"
+#include "seam/term/tensor.hpp"
 
 namespace seam {
 
@@ -56,8 +57,14 @@ class BodySurface {
   /// Appends the reference coordinates, in the cell behind a facet, of a point on it.
   /// @param on_facet the facet's own coordinates, [dimension - 1]
   void to_cell(int facet, const double* on_facet, std::vector<double>& reference) const;
-  /// The same for a point's motions relative to the facet. @param on_facet [dimension - 1][move]
-  void motion_to_cell(int facet, const double* on_facet, int moves, std::vector<double>& reference) const;
+  /// The same of a point that slides along the facet: of what is returned the derivatives count.
+  template <int dim, class T>
+  [[nodiscard]] Vec<dim, T> moved_in_cell(int facet, const Vec<dim - 1, T>& on_facet) const {
+    Vec<dim, T> reference;
+    for (int d = 0; d < dim; ++d)
+      for (int k = 1; k < dim; ++k) reference[d] += edge(facet, k, d) * on_facet[k - 1];
+    return reference;
+  }
 
  private:
   /// Reference coordinate d of vertex k of a facet, and of the way to it from vertex 0.

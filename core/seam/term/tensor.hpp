@@ -89,6 +89,11 @@ promote<A, B> dot(const Vec<n, A>& a, const Vec<n, B>& b) {
   return r;
 }
 
+template <class A, class B>
+Vec<3, promote<A, B>> cross(const Vec<3, A>& a, const Vec<3, B>& b) {
+  return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+
 template <int m, int n, class A, class B>
 Mat<m, n, promote<A, B>> operator+(const Mat<m, n, A>& a, const Mat<m, n, B>& b) {
   Mat<m, n, promote<A, B>> r;

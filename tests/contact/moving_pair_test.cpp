@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How gap, normal, area and opposite point follow the vertices of two facets, against finite differences.
-#include "seam/contact/gap_motion.hpp"
+#include "seam/contact/moving_pair.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,6 +8,7 @@
 
 #include "seam/conformance/finite_difference.hpp"
 #include "seam/contact/facet_search.hpp"
+#include "seam/contact/facet_vertices.hpp"
 
 using namespace seam;
 
@@ -34,6 +35,29 @@ std::vector<double> state(const FacetPair& pair, const std::array<double, 2>& on
   result.insert(result.end(), {area, hit->gap});
   result.insert(result.end(), hit->on_facet.begin(), hit->on_facet.begin() + dim - 1);
   return result;
+}
+
+template <int dim>
+void compare(const FacetPair& pair, const std::array<double, 2>& on_own, const std::vector<double>& at) {
+  MovingPair<dim> moving(pair);
+  moving.look();
+  CHECK(moving.gap.v == Approx(at[dim + 1]).margin(1e-12));
+  for (int k = 0; k + 1 < dim; ++k) CHECK(moving.on_opposite[k].v == Approx(at[dim + 2 + k]).margin(1e-12));
+  for (int m = 0; m < 2 * dim * dim; ++m) {
+    const int facet = m / (dim * dim), vertex = m % (dim * dim) / dim, component = m % dim;
+    const auto difference = central_difference(
+        [&](double step) {
+          FacetPair moved = pair;
+          (facet == 0 ? moved.own : moved.opposite)[vertex][component] += step;
+          return state(moved, on_own);
+        },
+        1e-3);
+    for (int d = 0; d < dim; ++d) CHECK(moving.normal[d].d[m] == Approx(difference[d]).margin(1e-9));
+    CHECK(moving.relative_weight.d[m] * at[dim] == Approx(difference[dim]).margin(1e-9));
+    CHECK(moving.gap.d[m] == Approx(difference[dim + 1]).margin(1e-9));
+    for (int k = 0; k + 1 < dim; ++k)
+      CHECK(moving.on_opposite[k].d[m] == Approx(difference[dim + 2 + k]).margin(1e-9));
+  }
 }
 
 }  // namespace
@@ -63,22 +87,9 @@ TEST_CASE("the motion of a pair of facets is that of finite differences") {
     pair.on_own = on_own;
     pair.gap = at[dim + 1];
     for (int k = 0; k + 1 < dim; ++k) pair.on_opposite[k] = at[dim + 2 + k];
-    const int moves = 2 * dim * dim;
-    const PairMotion motion = pair_motion(pair, moves);
-    for (int m = 0; m < moves; ++m) {
-      const int facet = m / (dim * dim), vertex = m % (dim * dim) / dim, component = m % dim;
-      const auto difference = central_difference(
-          [&](double step) {
-            FacetPair moved = pair;
-            (facet == 0 ? moved.own : moved.opposite)[vertex][component] += step;
-            return state(moved, on_own);
-          },
-          1e-3);
-      for (int d = 0; d < dim; ++d) CHECK(motion.normal[d * moves + m] == Approx(difference[d]).margin(1e-9));
-      CHECK(motion.relative_weight[m] * at[dim] == Approx(difference[dim]).margin(1e-9));
-      CHECK(motion.gap[m] == Approx(difference[dim + 1]).margin(1e-9));
-      for (int k = 0; k + 1 < dim; ++k)
-        CHECK(motion.on_opposite[k * moves + m] == Approx(difference[dim + 2 + k]).margin(1e-9));
-    }
+    if (dim == 2)
+      compare<2>(pair, on_own, at);
+    else
+      compare<3>(pair, on_own, at);
   }
 }
