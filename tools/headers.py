@@ -5,7 +5,8 @@
     tools/headers.py list              their names
     tools/headers.py hash [FILE]       a hash of their tokens, comments left out; written as a C++ header to FILE
     tools/headers.py install FOLDER    copies them
-    tools/headers.py check             whether core/seam/plugin/abi.txt holds this hash for the plugin ABI's number
+    tools/headers.py check             whether docs/write-a-plugin.md names public headers only, and core/seam/plugin/abi.txt
+                                       holds this hash for the plugin ABI's number
     tools/headers.py record            writes it there, after the number in descriptor.hpp was raised
 
 Public is what ENTRIES name and all that these include. The rest may change at any time.
@@ -19,13 +20,14 @@ import sys
 CORE = pathlib.Path(__file__).resolve().parent.parent / "core"
 PLUGINS = CORE.parent / "plugins"
 ABI = CORE / "seam/plugin/abi.txt"
+GUIDE = CORE.parent / "docs/write-a-plugin.md"
 ENTRIES = """
     assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp interface/adjoint.hpp interface/cell_constant.hpp
     interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp physics/body_terms.hpp physics/hyperelastic.hpp
     physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
     plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp
     scene/schema.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp
-    term/tensor.hpp
+    term/symmetric.hpp term/tensor.hpp
 """.split()
 # Of plugins whose types others can extend: installed as seam/plugins/..., with what they include beside them.
 OF_PLUGINS = ["cutfem_fluid/stabilisation.hpp"]
@@ -75,6 +77,11 @@ def abi_number():
 
 
 def check():
+    hidden = set(re.findall(r"`(?:core/)?(seam/[\w/]+\.hpp)`", GUIDE.read_text())) - set(public_headers())
+    if hidden:
+        print(f"{GUIDE.relative_to(CORE.parent)} names {', '.join(sorted(hidden))}, which no installation has: add them to "
+              "ENTRIES of tools/headers.py", file=sys.stderr)
+        return 1
     recorded = dict(line.split() for line in ABI.read_text().splitlines() if line and not line.startswith("#"))
     number, found = abi_number(), headers_hash()
     if recorded.get(number) == found:

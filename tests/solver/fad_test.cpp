@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "seam/term/tensor.hpp"
+
 using namespace seam;
 
 namespace {
@@ -44,8 +46,9 @@ void check(const char* name, const Function& f, double x, double y) {
 }  // namespace
 
 TEST_CASE("first and second derivatives of every function are those of differences") {
-  using std::abs, std::atan2, std::cos, std::exp, std::expm1, std::log, std::max, std::min, std::pow,
-      std::sin, std::sqrt, std::tanh;
+  using std::abs, std::acos, std::acosh, std::asin, std::asinh, std::atan, std::atan2, std::atanh, std::cbrt,
+      std::cos, std::cosh, std::erf, std::exp, std::expm1, std::log, std::log1p, std::max, std::min, std::pow,
+      std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   for (const auto& [x, y] : {std::pair(0.7, 1.3), std::pair(1.9, 0.4)}) {
     check(
         "a + b", [](auto a, auto b) { return a + b + 2.0 + (1.0 + b); }, x, y);
@@ -70,6 +73,24 @@ TEST_CASE("first and second derivatives of every function are those of differenc
     check(
         "tanh", [](auto a, auto b) { return tanh(a - 0.3 * b); }, x, y);
     check(
+        "tan", [](auto a, auto b) { return tan(0.3 * a * b); }, x, y);
+    check(
+        "asin, acos, atan",
+        [](auto a, auto b) { return asin(0.4 * a * b) + 2.0 * acos(0.3 * a) + atan(a / b); }, x, y);
+    check(
+        "sinh, cosh", [](auto a, auto b) { return sinh(a * b) + 2.0 * cosh(a - 0.4 * b); }, x, y);
+    check(
+        "asinh, acosh, atanh",
+        [](auto a, auto b) { return asinh(a * b) + 2.0 * acosh(1.5 + a * b) + 3.0 * atanh(0.3 * a * b); }, x,
+        y);
+    check(
+        "erf, log1p, cbrt",
+        [](auto a, auto b) { return erf(a - b) + 2.0 * log1p(a * b) + 3.0 * cbrt(a * a + b); }, x, y);
+    check(
+        "pow of variables", [](auto a, auto b) { return pow(a, b) + pow(1.7, a * b) + pow(a + b, a); }, x, y);
+    check(
+        "select", [](auto a, auto b) { return select(a < b, a * b, a + 0.0 * b); }, x, y);
+    check(
         "atan2", [](auto a, auto b) { return atan2(a * a, b - 3.0); }, x, y);
     check(
         "pow", [](auto a, auto b) { return pow(a * b, 2.3) + pow(b, -0.7); }, x, y);
@@ -80,4 +101,18 @@ TEST_CASE("first and second derivatives of every function are those of differenc
     check(
         "min", [](auto a, auto b) { return min(a * a, b * b); }, x, y);
   }
+}
+
+TEST_CASE("lengths have no derivative that is none where they are 0") {
+  using T = Fad<2>;
+  const Vec<2, T> zero{{T(0.0, 0), T(0.0, 1)}}, other{{T(3.0, 0), T(-4.0, 1)}};
+  CHECK(norm(zero).v == 0);
+  CHECK_FALSE(isnan(norm(zero)));
+  CHECK(isnan(sqrt(dot(zero, zero))));
+  CHECK(norm(other).v == 5);
+  CHECK(norm(other).d[0] == Approx(0.6));
+  CHECK(norm(other).d[1] == Approx(-0.8));
+  const Vec<2, T> half = other / 2.0, twice = other * T(2.0);
+  CHECK(half[1].v == -2);
+  CHECK(twice[0].d[0] == 2);
 }

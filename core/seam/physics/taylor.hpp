@@ -7,12 +7,6 @@
 
 namespace seam {
 
-/// How often differentiation types are nested: 0 for a plain number, 1 for Fad<n>, 2 for Fad<n, Fad<m>>.
-template <class T>
-inline constexpr int derivative_depth = 0;
-template <int n, class T>
-inline constexpr int derivative_depth<Fad<n, T>> = 1 + derivative_depth<T>;
-
 /// Carries derivatives through a function that is known by numbers: its Taylor polynomial about `at`, the
 /// plain value of x. As x - at has no value but derivatives only, all derivatives that T holds are exact.
 /// @param first [n], second [n][n], third [n][n][n]: those up to the depth of T are read

@@ -97,10 +97,61 @@ struct Fad {
     using std::cos, std::sin;
     return chain(a, cos(a.v), -sin(a.v));
   }
+  friend Fad tan(const Fad& a) {
+    using std::tan;
+    const T value = tan(a.v);
+    return chain(a, value, 1.0 + value * value);
+  }
+  friend Fad asin(const Fad& a) {
+    using std::asin, std::sqrt;
+    return chain(a, asin(a.v), 1.0 / sqrt(1.0 - a.v * a.v));
+  }
+  friend Fad acos(const Fad& a) {
+    using std::acos, std::sqrt;
+    return chain(a, acos(a.v), -1.0 / sqrt(1.0 - a.v * a.v));
+  }
+  friend Fad atan(const Fad& a) {
+    using std::atan;
+    return chain(a, atan(a.v), 1.0 / (1.0 + a.v * a.v));
+  }
+  friend Fad sinh(const Fad& a) {
+    using std::cosh, std::sinh;
+    return chain(a, sinh(a.v), cosh(a.v));
+  }
+  friend Fad cosh(const Fad& a) {
+    using std::cosh, std::sinh;
+    return chain(a, cosh(a.v), sinh(a.v));
+  }
   friend Fad tanh(const Fad& a) {
     using std::tanh;
     const T value = tanh(a.v);
     return chain(a, value, 1.0 - value * value);
+  }
+  friend Fad asinh(const Fad& a) {
+    using std::asinh, std::sqrt;
+    return chain(a, asinh(a.v), 1.0 / sqrt(1.0 + a.v * a.v));
+  }
+  friend Fad acosh(const Fad& a) {
+    using std::acosh, std::sqrt;
+    return chain(a, acosh(a.v), 1.0 / sqrt(a.v * a.v - 1.0));
+  }
+  friend Fad atanh(const Fad& a) {
+    using std::atanh;
+    return chain(a, atanh(a.v), 1.0 / (1.0 - a.v * a.v));
+  }
+  friend Fad erf(const Fad& a) {
+    using std::erf, std::exp;
+    constexpr double two_over_root_pi = 1.1283791670955126;
+    return chain(a, erf(a.v), two_over_root_pi * exp(-a.v * a.v));
+  }
+  friend Fad log1p(const Fad& a) {
+    using std::log1p;
+    return chain(a, log1p(a.v), 1.0 / (1.0 + a.v));
+  }
+  friend Fad cbrt(const Fad& a) {
+    using std::cbrt;
+    const T value = cbrt(a.v);
+    return chain(a, value, 1.0 / (3.0 * value * value));
   }
   friend Fad atan2(const Fad& y, const Fad& x) {
     using std::atan2;
@@ -116,6 +167,20 @@ struct Fad {
     // One call instead of two, except where it would be 0/0.
     if (is_zero(a.v)) return chain(a, value, exponent * pow(a.v, exponent - 1));
     return chain(a, value, exponent * value / a.v);
+  }
+  /// Of a positive number.
+  friend Fad pow(const Fad& a, const Fad& exponent) {
+    using std::log, std::pow;
+    const T value = pow(a.v, exponent.v), by_base = exponent.v * value / a.v, by_exponent = log(a.v) * value;
+    Fad r(Raw{});
+    r.v = value;
+    for (int i = 0; i < n; ++i) r.d[i] = by_base * a.d[i] + by_exponent * exponent.d[i];
+    return r;
+  }
+  friend Fad pow(double a, const Fad& exponent) {
+    using std::log, std::pow;
+    const T value = pow(a, exponent.v);
+    return chain(exponent, value, std::log(a) * value);
   }
   friend Fad abs(const Fad& a) { return a.v < T(0.0) ? -a : a; }
   friend Fad max(const Fad& a, const Fad& b) { return a.v < b.v ? b : a; }
@@ -134,6 +199,18 @@ struct Fad {
   }
 };
 
+/// How often differentiation types are nested: 0 for a plain number, 1 for Fad<n>, 2 for Fad<n, Fad<m>>.
+template <class T>
+inline constexpr int derivative_depth = 0;
+template <int n, class T>
+inline constexpr int derivative_depth<Fad<n, T>> = 1 + derivative_depth<T>;
+
+/// The one or the other, in the manner of `condition ? yes : no` for numbers of any kind.
+template <class T>
+T select(bool condition, const T& yes, const T& no) {
+  return condition ? yes : no;
+}
+
 /// True when the number is zero and so are all its derivatives.
 inline bool vanishes(double v) { return v == 0; }
 template <int n, class T>
@@ -149,6 +226,22 @@ inline double plain(double v) { return v; }
 template <int n, class T>
 double plain(const Fad<n, T>& a) {
   return plain(a.v);
+}
+
+/// Whether the number is none, or one of its derivatives.
+inline bool isnan(double v) { return std::isnan(v); }
+template <int n, class T>
+bool isnan(const Fad<n, T>& a) {
+  if (isnan(a.v)) return true;
+  for (int i = 0; i < n; ++i)
+    if (isnan(a.d[i])) return true;
+  return false;
+}
+/// sqrt(x) with derivatives 0 where x is 0, and the true ones are infinite.
+inline double safe_sqrt(double x) { return std::sqrt(x); }
+template <int n, class T>
+Fad<n, T> safe_sqrt(const Fad<n, T>& x) {
+  return plain(x) == 0 ? Fad<n, T>(0.0) : sqrt(x);
 }
 
 }  // namespace seam

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <type_traits>
 
+#include "seam/term/fad.hpp"
+
 namespace seam {
 
 /// A vector of `n` scalars of type T (double or an automatic differentiation type).
@@ -82,6 +84,17 @@ Vec<n, promote<S, T>> operator*(const S& s, const Vec<n, T>& a) {
   for (int i = 0; i < n; ++i) r[i] = s * a[i];
   return r;
 }
+/// A number, of any scalar type.
+template <class S>
+concept IsScalar = !requires(const S& s) {
+  s.c;
+};
+template <int n, class S, class T>
+requires IsScalar<S> Vec<n, promote<S, T>>
+operator*(const Vec<n, T>& a, const S& s) { return s * a; }
+template <int n, class S, class T>
+requires IsScalar<S> Vec<n, promote<S, T>>
+operator/(const Vec<n, T>& a, const S& s) { return (1.0 / s) * a; }
 template <int n, class A, class B>
 promote<A, B> dot(const Vec<n, A>& a, const Vec<n, B>& b) {
   promote<A, B> r = a[0] * b[0];
@@ -112,6 +125,12 @@ Mat<m, n, promote<S, T>> operator*(const S& s, const Mat<m, n, T>& a) {
   for (int i = 0; i < m * n; ++i) r.c[i] = s * a.c[i];
   return r;
 }
+template <int m, int n, class S, class T>
+requires IsScalar<S> Mat<m, n, promote<S, T>>
+operator*(const Mat<m, n, T>& a, const S& s) { return s * a; }
+template <int m, int n, class S, class T>
+requires IsScalar<S> Mat<m, n, promote<S, T>>
+operator/(const Mat<m, n, T>& a, const S& s) { return (1.0 / s) * a; }
 template <int m, int k, int n, class A, class B>
 Mat<m, n, promote<A, B>> operator*(const Mat<m, k, A>& a, const Mat<k, n, B>& b) {
   Mat<m, n, promote<A, B>> r;
@@ -163,6 +182,23 @@ template <int m, int n, class A, class B>
 promote<A, B> inner(const Mat<m, n, A>& a, const Mat<m, n, B>& b) {
   promote<A, B> r = a.c[0] * b.c[0];
   for (int i = 1; i < m * n; ++i) r += a.c[i] * b.c[i];
+  return r;
+}
+/// Lengths, with derivatives 0 where they are 0.
+template <int n, class T>
+T norm(const Vec<n, T>& a) {
+  return safe_sqrt(dot(a, a));
+}
+template <int m, int n, class T>
+T norm(const Mat<m, n, T>& a) {
+  return safe_sqrt(inner(a, a));
+}
+/// What is left of a tensor of three dimensions without its mean.
+template <class T>
+Mat<3, 3, T> deviator(const Mat<3, 3, T>& a) {
+  Mat<3, 3, T> r = a;
+  const T mean = (1.0 / 3) * trace(a);
+  for (int i = 0; i < 3; ++i) r(i, i) -= mean;
   return r;
 }
 template <int m, int n, class A, class B>
