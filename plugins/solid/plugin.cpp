@@ -6,6 +6,7 @@
 #include "rigid_body.hpp"
 #include "rigid_surface.hpp"
 #include "solid.hpp"
+#include "spring.hpp"
 
 SEAM_PLUGIN(registry) {
   using namespace seam;
@@ -45,4 +46,5 @@ SEAM_PLUGIN(registry) {
                       {Published::As::quantity, "velocity", "m/s", "its rate"}});
   solid::declare_rigid(registry);
   solid::declare_joint(registry);
+  solid::declare_springs(registry);
 }

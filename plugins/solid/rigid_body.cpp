@@ -11,19 +11,6 @@
 namespace seam::solid {
 namespace {
 
-/// Of a body in space, the orientation is what it was at the start of the step, turned on by how much the
-/// `rotation` has changed since: angles about the body's own axes. There is no rotation that it cannot pass.
-template <int k>
-struct OrientationOf {
-  static constexpr int index = k;
-  static constexpr int components(int) { return 4; }
-};
-
-template <class Trial, class Rotation, class Orientation>
-auto orientation_of(const Trial& s, Rotation rotation, Orientation orientation) {
-  return turned(s.old_value(orientation), s.value(rotation) - s.old_value(rotation));
-}
-
 /// m d2x/dt2
 struct RigidMass {
   using translation = Vector<0>;

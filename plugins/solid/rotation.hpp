@@ -35,22 +35,34 @@ std::array<T, 2> rotation_coefficients(const T& square) {
   return {sin(x) / x, (1.0 - cos(x)) / square};
 }
 
+/// One turn in the axes that another one has turned.
+template <class S, class T>
+Quaternion<promote<S, T>> product(const Quaternion<S>& first, const Quaternion<T>& then) {
+  Quaternion<promote<S, T>> r;
+  r[3] = first[3] * then[3];
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    r[3] -= first[i] * then[i];
+    r[i] = first[3] * then[i] + first[i] * then[3] + first[j] * then[k] - first[k] * then[j];
+  }
+  return r;
+}
+
+template <class T>
+Quaternion<T> inverse(const Quaternion<T>& q) {
+  return {{-q[0], -q[1], -q[2], q[3]}};
+}
+
 /// What is turned by `start` turns on, by a rotation vector in the turned body's own axes.
 template <class S, class T>
 Quaternion<T> turned(const Quaternion<S>& start, const Vec<3, T>& turn) {
   // (cos, sin) of half the angle.
   const T square = 0.25 * dot(turn, turn);
   const auto c = rotation_coefficients<T>(square);
-  const T scalar = 1.0 - square * c[1];
-  const Vec<3, T> vector = (0.5 * c[0]) * turn;
-  Quaternion<T> r;
-  r[3] = start[3] * scalar;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    r[3] -= start[i] * vector[i];
-    r[i] = start[3] * vector[i] + start[i] * scalar + start[j] * vector[k] - start[k] * vector[j];
-  }
-  return r;
+  Quaternion<T> on;
+  for (int i = 0; i < 3; ++i) on[i] = 0.5 * c[0] * turn[i];
+  on[3] = 1.0 - square * c[1];
+  return product(start, on);
 }
 
 template <class T>
@@ -79,6 +91,20 @@ Vec<3, T> rotation_vector(const Quaternion<T>& q) {
   }
   const T size = sqrt(square);
   return (2.0 * atan2(size, p[3]) / size) * v;
+}
+
+/// The unknown `orientation` of a body in space as a kernel's operand: what the orientation was at the start
+/// of the step, turned on by how much the `rotation` has changed since, angles about the body's own axes.
+/// There is no rotation that it cannot pass.
+template <int k>
+struct OrientationOf {
+  static constexpr int index = k;
+  static constexpr int components(int) { return 4; }
+};
+
+template <class Trial, class Rotation, class Orientation>
+auto orientation_of(const Trial& s, Rotation rotation, Orientation orientation) {
+  return turned(s.old_value(orientation), s.value(rotation) - s.old_value(rotation));
 }
 
 }  // namespace seam::solid

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Rigid bodies whose surface is cut out of a fluid, free to move and turn.
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "scene_run.hpp"
@@ -122,6 +124,51 @@ TEST_CASE("a pendulum's period is right to second order") {
   CHECK(coarse / fine == Approx(4).epsilon(0.1));
 }
 
+TEST_CASE("what springs couple swings right to second order") {
+  const auto off = [](const std::string& steps) {
+    const ShippedRun run("solid/coupled_blocks", unchecked + "--set parameters.steps=" + steps);
+    const std::vector<double> length = run.series("length"), swing = run.series("swing");
+    return std::array{*std::ranges::max_element(length), *std::ranges::max_element(swing)};
+  };
+  const auto coarse = off("100"), fine = off("200");
+  for (int k = 0; k < 2; ++k) {
+    CAPTURE(coarse[k], fine[k]);
+    CHECK(coarse[k] < 1e-2);
+    CHECK(coarse[k] / fine[k] == Approx(4).epsilon(0.1));
+  }
+}
+
+TEST_CASE("springs that cannot be are refused, with their places") {
+  const auto refused = [](const std::string& link, const std::string& coupling) {
+    const Run run(R"yaml(
+title: Two bars
+dimension: 2
+plugins: [solid]
+meshes:
+  one: {grid: {from: [0, 0], to: [1, 0.2], cells: [1, 1]}}
+  two: {grid: {from: [1, 0], to: [2, 0.2], cells: [1, 1]}}
+fields:
+  one: {type: rigid_body, mesh: one, density: 1, body_force: [0, -1]}
+  two: {type: rigid_body, mesh: two, density: 1}
+  soft: {type: solid, mesh: two, material: {type: neo_hookean, young: 50, poisson: 0.3}, boundary: [{on: x_min, displacement: [0, 0]}]}
+interfaces: {link: {type: link, fields: )yaml" +
+                      link + "}}\ncoupling:\n  - {on: link, " + coupling +
+                      "}\ntime: {theta: 1, end: 1, step: {initial: 0.5}}\noutput: {fields: false}\n",
+                  "--quiet");
+    CHECK(run.done.code == 2);
+    return run.done.output;
+  };
+  const std::string turn = "type: torsional_spring, stiffness: 1", line = "type: spring, stiffness: 1";
+  CHECK_THAT(refused("[one, soft]", turn), Contains("'soft' is none") && Contains("scene.yaml:12"));
+  CHECK_THAT(refused("[one, one]", turn), Contains("with itself"));
+  CHECK_THAT(refused("[one, two, soft]", turn), Contains("found 3"));
+  CHECK_THAT(refused("[one, two]", turn + ", axis: [1, 0]"), Contains("scene.yaml:14") && Contains("`axis`"));
+  CHECK_THAT(refused("[one, two]", line + ", at: [0, 0], to_at: [0, 0], rest_length: 1"),
+             Contains("points that coincide"));
+  CHECK_THAT(refused("[one, two]", line + ", at: [0, 0, 0], to_at: [0, 0]"), Contains("a list of 2 numbers"));
+  CHECK_THAT(refused("[one, two]", line + ", at: [0, 0], to_at: [0, 0], damping: -1"), Contains("damping"));
+}
+
 TEST_CASE("a bar that hangs at a boundary of a deformable body balances on it") {
   const Run run(R"yaml(
 title: A bar below a block that is held on the left
@@ -227,7 +274,71 @@ coupling:
   CHECK_THAT(contact("floor, surface_stiffness: 5, adjoint: symmetric"), Contains("no adjoint term"));
 }
 
+TEST_CASE("the moment of a contact is what it turns a body with, where that is now") {
+  const Run run(R"yaml(
+title: A bar on a hinge, a spring and a stop
+dimension: 2
+plugins: [solid, nitsche_fsci]
+meshes: {bar: {grid: {from: [0, 0], to: [1, 0.2], cells: [10, 2]}}}
+fields:
+  bar: {type: rigid_body, mesh: bar, density: 1, body_force: [0, -t], rotational_stiffness: 0.3}
+  skin: {type: rigid_surface, mesh: bar}
+constraints:
+  - {type: rigid, field: skin, body: bar}
+  - {type: joint, kind: hinge, body: bar, at: [0, 0.1]}
+interfaces: {stop: {type: obstacle, from: skin, body: {type: box, from: [0.83, -1], to: [1.5, 0.02]}}}
+coupling: [{type: contact, on: stop, surface_stiffness: 10}]
+time: {static: true, end: 1, step: {initial: 0.1}}
+solver: {newton: {tolerance: 1e-12}}
+output:
+  fields: false
+  probes:
+    moment: {interface: stop, quantity: moment, about: [0, 0.1]}
+    angle: {field: bar, quantity: rotation}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  // About the hinge, of what the bar exerts: its weight's moment less that of its spring.
+  const double angle = run.series("angle").back();
+  CHECK(angle < -0.03);
+  CHECK(-run.series("moment").back() == Approx(0.2 * 0.5 * std::cos(angle) + 0.3 * angle).epsilon(1e-9));
+}
+
 TEST_CASE("a rigid block slides on a slope as bodies fall") { ShippedRun("contact/sliding_block"); }
+
+TEST_CASE("the surface of a body in space turns with it, by any angle") {
+  const Run run(R"yaml(
+title: A cube spins about an axis across its own
+dimension: 3
+plugins: [solid]
+meshes: {cube: {grid: {from: [-0.5, -0.5, -0.5], to: [0.5, 0.5, 0.5], cells: [1, 1, 1]}}}
+fields:
+  cube: {type: rigid_body, mesh: cube, density: 1, initial: {rotation_rate: [0.4, 0.5, 0.8]}}
+  skin: {type: rigid_surface, mesh: cube}
+constraints: [{type: rigid, field: skin, body: cube}]
+time: {theta: 0.5, end: 8, step: {initial: 0.1}}
+solver: {newton: {tolerance: 1e-12}}
+output:
+  fields: false
+  probes: {corner: {field: skin, at: [0.5, 0.5, 0.5], quantity: displacement}}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  // A cube turns about any axis as about its own ones: Rodrigues' formula.
+  const double rate[] = {0.4, 0.5, 0.8}, speed = std::hypot(rate[0], rate[1], rate[2]);
+  const char* names[] = {"corner.x", "corner.y", "corner.z"};
+  const std::vector<double> time = run.series("time");
+  for (std::size_t step = 0; step < time.size(); ++step)
+    for (int i = 0; i < 3; ++i) {
+      const double c = std::cos(speed * time[step]), s = std::sin(speed * time[step]);
+      const double along = 0.5 * (rate[0] + rate[1] + rate[2]) / speed;
+      const double across = 0.5 * (rate[(i + 1) % 3] - rate[(i + 2) % 3]) / speed;
+      const double expected = 0.5 * c + s * across + (1 - c) * along * rate[i] / speed;
+      CHECK(0.5 + run.series(names[i])[step] == Approx(expected).margin(1e-11));
+    }
+}
 
 TEST_CASE("the force on a body is what the fluid's equations leave") {
   const Run run(R"yaml(
@@ -250,6 +361,7 @@ output:
   fields: false
   probes:
     force: {interface: gamma, quantity: force}
+    moment: {interface: gamma, quantity: moment, about: [0.7, 0.55]}
     moved: {field: disc, quantity: translation}
     angle: {field: disc, quantity: rotation}
 )yaml",
@@ -261,4 +373,8 @@ output:
   CHECK(std::abs(run.series("angle").back()) > 1e-4);
   CHECK(std::abs(run.series("force.x").back()) == Approx(20 * x).epsilon(1e-11));
   CHECK(std::abs(run.series("force.y").back()) == Approx(30 * std::abs(y)).margin(1e-11 * 20 * x));
+  // The moment about the disc's centre, where it is now, of what presses on it.
+  const double about_centre =
+      run.series("moment").back() - x * run.series("force.y").back() + y * run.series("force.x").back();
+  CHECK(about_centre == Approx(2 * run.series("angle").back()).epsilon(1e-11));
 }

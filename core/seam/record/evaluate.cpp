@@ -69,6 +69,45 @@ std::vector<double> integrate(const IntegrationDomain& domain, const NamedQuanti
   return sum;
 }
 
+const Field& first_field(const Problem& problem, const std::string& interface) {
+  return *problem.interfaces().at(interface).front().domain->fields().front();
+}
+
+/// Calls `add(node, component, force)` for all that the couplings on an interface add to the equations of an
+/// unknown of side 0.
+template <class Add>
+void for_each_force(const Problem& problem, const std::string& interface, const Field::ComponentRange& place,
+                    const TimePoint& at, const Add& add) {
+  const std::vector<InterfacePart>& parts = problem.interfaces().at(interface);
+  for (const Problem::DomainTerms& integrated : problem.domains()) {
+    const auto& domain = integrated.first;
+    if (std::ranges::none_of(parts, [&](const InterfacePart& p) { return p.domain == domain; })) continue;
+    ElementEvaluator evaluator(*domain, integrated.second);
+    for (const ElementEvaluator::SideBlock& part : evaluator.side_blocks()) {
+      if (part.side != 0 || part.block != place.block) continue;
+      for (int e = 0; e < domain->size(); ++e) {
+        evaluator.compute(e, at, false);
+        const int* nodes = domain->nodes(e, 0, place.block);
+        for (int c = 0; c < place.components; ++c)
+          for (int a = 0; a < part.nodes; ++a)
+            add(nodes[a], c, evaluator.residual()[part.offset + (place.offset + c) * part.stride + a]);
+      }
+    }
+  }
+}
+
+/// First component, in the block of an unknown, of what displaces its nodes; -1 where they are at rest.
+/// @throws Error where nodes of another order are displaced
+int displacement_beside(const FieldEntry& entry, const Field::ComponentRange& place) {
+  const std::string displacement = entry.physics->displacement();
+  const auto& unknowns = entry.field->unknowns();
+  if (std::ranges::find(unknowns, displacement, &Unknown::name) == unknowns.end()) return -1;
+  const Field::ComponentRange moved = entry.field->place(displacement);
+  if (moved.block == place.block) return moved.offset;
+  throw Error(fmt::format("a moment needs '{}' and '{}' of field '{}' to be of one order",
+                          unknowns.front().name, displacement, entry.name));
+}
+
 }  // namespace
 
 NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
@@ -188,26 +227,34 @@ double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,
 
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,
                                     const std::string& unknown, const TimePoint& at) {
-  const std::vector<InterfacePart>& parts = problem.interfaces().at(interface);
-  const Field::ComponentRange place = parts.front().domain->fields().front()->place(unknown);
+  const Field::ComponentRange place = first_field(problem, interface).place(unknown);
   std::vector<double> sum(place.components, 0.0);
-  for (const Problem::DomainTerms& integrated : problem.domains()) {
-    const auto& domain = integrated.first;
-    const auto& terms = integrated.second;
-    if (std::ranges::none_of(parts, [&](const InterfacePart& p) { return p.domain == domain; })) continue;
-    ElementEvaluator evaluator(*domain, terms);
-    for (const ElementEvaluator::SideBlock& part : evaluator.side_blocks()) {
-      if (part.side != 0 || part.block != place.block) continue;
-      for (int e = 0; e < domain->size(); ++e) {
-        evaluator.compute(e, at, false);
-        for (int c = 0; c < place.components; ++c)
-          for (int a = 0; a < part.nodes; ++a)
-            sum[c] += evaluator.residual()[part.offset + (place.offset + c) * part.stride + a];
-      }
-    }
-  }
+  for_each_force(problem, interface, place, at, [&](int, int c, double force) { sum[c] += force; });
   problem.communicator().sum(sum);
   return sum;
+}
+
+std::vector<double> interface_moment(const Problem& problem, const std::string& interface,
+                                     const FieldEntry& entry, const std::array<double, 3>& about,
+                                     const TimePoint& at) {
+  const Field& field = *entry.field;
+  const int dim = field.mesh().dimension();
+  const Field::ComponentRange place = field.place(field.unknowns().front().name);
+  const Block& block = field.blocks()[place.block];
+  const int moved = displacement_beside(entry, place);
+  std::vector<double> sum(3, 0.0);
+  for_each_force(problem, interface, place, at, [&](int node, int c, double force) {
+    double arm[3] = {0, 0, 0};
+    for (int d = 0; d < dim; ++d) {
+      arm[d] = block.space->position(node)[d] - about[d];
+      if (moved >= 0) arm[d] += block.now.value[static_cast<std::size_t>(node) * block.size + moved + d];
+    }
+    const int next = (c + 1) % 3, last = (c + 2) % 3;
+    sum[next] += arm[last] * force;
+    sum[last] -= arm[next] * force;
+  });
+  problem.communicator().sum(sum);
+  return dim == 2 ? std::vector<double>{sum[2]} : sum;
 }
 
 ProbePoint::ProbePoint(const FieldEntry& entry, const std::vector<double>& position, const Location& where) {

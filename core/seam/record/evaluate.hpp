@@ -40,6 +40,12 @@ std::vector<double> interface_integral(const Problem& problem, const std::string
 /// the force, in exact balance with the field's equations. Collective.
 std::vector<double> interface_force(const Problem& problem, const std::string& interface,
                                     const std::string& unknown, const TimePoint& at);
+/// The same for a rotation: the moment about a point of what is exerted in the equations of the field's first
+/// unknown, one number in the plane, three in space. Arms are those of nodes where they are now. Collective.
+/// @throws Error where the mesh moves by a displacement of another order than the unknown
+std::vector<double> interface_moment(const Problem& problem, const std::string& interface,
+                                     const FieldEntry& entry, const std::array<double, 3>& about,
+                                     const TimePoint& at);
 
 /// The number that a coupling wants recorded. Collective.
 double interface_measure(const InterfaceMeasure& measure, const TimePoint& at,

@@ -58,11 +58,20 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
   // The force that holds what is prescribed: known only where something is prescribed.
   reaction_ = quantity_name_ == "reaction";
   force_ = quantity_name_ == "force" && !interface_.empty();
+  if (quantity_name_ == "moment" && !interface_.empty()) {
+    moment_about_.emplace();
+    if (p.has("about")) std::ranges::copy(p.vector("about"), moment_about_->begin());
+  } else if (p.has("about")) {
+    throw Error(p.where("about"), "only the `moment` of what an `interface` exerts is about a point");
+  }
+  const bool exerted = reaction_ || force_ || moment_about_;
   try {
     if (reaction_ && boundaries_.empty())
       throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
-    quantity_ =
-        find_quantity(entry, reaction_ || force_ ? entry.field->unknowns().at(0).name : quantity_name_);
+    quantity_ = find_quantity(entry, exerted ? entry.field->unknowns().at(0).name : quantity_name_);
+    if (moment_about_ && quantity_.components != entry.mesh->dimension())
+      throw Error(fmt::format("what '{}' exerts has no moment: '{}' is no vector", interface_,
+                              entry.field->unknowns().at(0).name));
     if (reaction_) require_prescribed(entry, boundaries_);
     if (quantity_.components == 1 && !component_.empty() && component_ != "magnitude" && !force_)
       throw Error(
@@ -75,6 +84,7 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
 std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const {
   const FieldEntry& entry = problem.field(field_);
   if (force_) return interface_force(problem, interface_, entry.field->unknowns().at(0).name, at);
+  if (moment_about_) return interface_moment(problem, interface_, entry, *moment_about_, at);
   if (!interface_.empty()) return interface_integral(problem, interface_, quantity_, at);
   if (reaction_) return reaction(problem, entry, entry.field->unknowns().at(0).name, boundaries_);
   if (point_) return point_->evaluate(entry, quantity_, at);

@@ -29,6 +29,7 @@ class Probe {
   std::optional<ProbePoint> point_;
   std::string interface_;
   bool force_ = false;
+  std::optional<std::array<double, 3>> moment_about_;
   bool reaction_ = false;
   std::string component_;  ///< "", "x", "y", "z" or "magnitude"
 };

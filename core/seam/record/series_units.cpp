@@ -37,10 +37,11 @@ std::optional<std::string> unit_of_probe(const Parameters& p, const Problem& pro
   const auto entry = std::ranges::find(problem.fields(), field, &FieldEntry::name);
   if (entry == problem.fields().end()) return std::nullopt;
   const std::vector<Unknown>& unknowns = entry->field->unknowns();
-  if (quantity == "reaction" || (quantity == "force" && !interface.empty())) {
+  const bool moment = quantity == "moment" && !interface.empty();
+  if (quantity == "reaction" || moment || (quantity == "force" && !interface.empty())) {
     // Of the first unknown: what works on a way, or on its rate, is a force.
     const std::string& way = unknowns.front().unit;
-    return way == "m" || way == "m/s" ? std::optional<std::string>("N") : std::nullopt;
+    return way == "m" || way == "m/s" ? std::optional<std::string>(moment ? "N m" : "N") : std::nullopt;
   }
   Units units;
   for (const auto& [name, parameters] : scene.root.map("fields"))

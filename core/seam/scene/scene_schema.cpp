@@ -101,9 +101,9 @@ Schema probe_schema() {
   schema.text(
       "quantity",
       "an unknown or another quantity of the field (`seam explain` lists them); reaction, the force that "
-      "holds "
-      "what is prescribed on `on`; or force, what the side named first (`field` of a cut, `from`) exerts "
-      "through `interface` on the other: the body, `to`, the obstacle");
+      "holds what is prescribed on `on`; or force and moment, what the side named first (`field` of a cut, "
+      "`from`) exerts through `interface` on the other: the body, `to`, the obstacle");
+  schema.vector("about", "of a moment: the point, at rest; default the origin").unit("m").optional();
   schema.choice("component", "of a vector quantity; default all of them", {"x", "y", "z", "magnitude"})
       .optional();
   return schema;
