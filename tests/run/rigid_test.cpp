@@ -71,6 +71,26 @@ TEST_CASE("a disc that settles does so alike on all numbers of ranks") {
   }
 }
 
+TEST_CASE("a disc touches a slope alike on all numbers of ranks, and after a restart") {
+  const std::string short_fall = unchecked + "--set parameters.gap=0.002 ";
+  const ShippedRun one("fsi/slope_disc", short_fall + "--set time.end=0.12");
+  CHECK(one("angle") < -1e-3);
+  CHECK(one("disc.contact_area") > 0.01);
+  for (const char* ranks : {"2", "3"}) {
+    const ShippedRun several("fsi/slope_disc", short_fall + "--set time.end=0.12",
+                             std::string("mpirun --oversubscribe -np ") + ranks);
+    CHECK(difference(one.csv, several.csv, 1e-6) < 1e-8);
+  }
+  // Stopped just before it touches, and resumed on two ranks.
+  const Folder folder;
+  const std::string run = "run " SEAM_SOURCE_DIR
+                          "/configs/fsi/slope_disc.yaml --no-picture --quiet --folder " +
+                          (folder.path / "out").string() + " --set output.fields=false " + short_fall;
+  REQUIRE(seam(run + "--set time.end=0.04").code == 0);
+  REQUIRE(seam(run + "--set time.end=0.12 --resume --changed", "mpirun --oversubscribe -np 2").code == 0);
+  CHECK(difference(one.csv, folder.read("out/series.csv"), 1e-6) < 1e-8);
+}
+
 TEST_CASE("what a weight does that settles goes into motion and heat, the more so the finer the cells",
           "[study]") {
   const auto loss = [](const std::string& cells) {
