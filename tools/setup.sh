@@ -9,6 +9,8 @@ seam_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 seam_build=$(realpath -m "${SEAM_BUILD:-$seam_root/build}")
 seam_jobs=${SEAM_JOBS:-$(nproc)}
 
+# What the compiler cache holds of one checkout serves all others.
+export CCACHE_BASEDIR=$seam_root CCACHE_NOHASHDIR=1
 # One thread per process: BLAS threads only fight over the cores.
 export OPENBLAS_NUM_THREADS=1
 if [ "$(id -u)" = 0 ]; then
