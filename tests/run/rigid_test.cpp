@@ -91,6 +91,16 @@ TEST_CASE("a disc touches a slope alike on all numbers of ranks, and after a res
   CHECK(difference(one.csv, folder.read("out/series.csv"), 1e-6) < 1e-8);
 }
 
+TEST_CASE("a ball falls through a fluid onto a wall, which then carries its weight", "[study]") {
+  const ShippedRun run("fsi/falling_ball", unchecked +
+                                               "--set parameters.n=2 --set parameters.gap=0.01 "
+                                               "--set parameters.end=0.25 --set parameters.step=0.05");
+  CHECK(run("balance") == Approx(1).epsilon(1e-3));
+  CHECK(run("carried") == Approx(1).epsilon(1e-2));
+  // Weight, surface stiffness and the volume of the cap behind the wall.
+  CHECK(run("ball.gap") == Approx(-std::sqrt(6 * 0.2 / (0.2 * 2e5))).epsilon(0.04));
+}
+
 TEST_CASE("what a weight does that settles goes into motion and heat, the more so the finer the cells",
           "[study]") {
   const auto loss = [](const std::string& cells) {
