@@ -8,6 +8,7 @@
 #include "all_ranks.hpp"
 #include "check_report.hpp"
 #include "command.hpp"
+#include "common.hpp"
 #include "seam/run/session.hpp"
 #include "seam/scene/resolved.hpp"
 
@@ -105,21 +106,20 @@ int run(const Options& options, bool is_root) {
 
 }  // namespace
 
-Command check_command(CLI::App& parent) {
-  CLI::App* app = parent.add_subcommand(
+Command check_command(CommandLine& parent) {
+  CommandLine line = parent.add_subcommand(
       "check", "Check a scene: set it up as `run` does before the first step, without writing anything");
   auto options = std::make_shared<Options>();
-  app->add_option("scene", options->scene, "YAML file")->required();
-  app->add_option("--set", options->set, "replace a value: key.key=value; may be repeated")->take_all();
-  app->add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
-  CLI::Option* json =
-      app->add_flag("--json", options->json, "what is found as JSON, for editors and continuous integration");
-  app->add_flag(
-         "--resolved", options->resolved,
-         "print every value with its key path, defaults filled in, and the checksum of those that decide "
-         "what is computed; nothing is built")
-      ->excludes(json);
-  return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
+  line.add_option("scene", options->scene, "YAML file").required();
+  line.add_option("--set", options->set, "replace a value: key.key=value; may be repeated").take_all();
+  line.add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
+  line.add_flag("--json", options->json, "what is found as JSON, for editors and continuous integration");
+  line.add_flag(
+          "--resolved", options->resolved,
+          "print every value with its key path, defaults filled in, and the checksum of those that decide "
+          "what is computed; nothing is built")
+      .excludes("--json");
+  return {line, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 
 }  // namespace seam::cli

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "seam/plugin/plugin_host.hpp"
-#include "seam/plugin/registry.hpp"
-#include "seam/scene/scene.hpp"
+#include "command_line.hpp"
 
 namespace seam::cli {
 
@@ -18,26 +15,26 @@ enum ExitCode { ok = 0, failed = 1, broken_input = 2, plugin_failure = 3, out_of
 
 /// One subcommand: its options are declared when it is made, `run` is called when the user chose it.
 struct Command {
-  CLI::App* app;
+  CommandLine line;
   std::function<int()> run;  ///< returns an ExitCode; may throw seam::Error
 };
 
 // One file each.
-Command plugins_command(CLI::App& parent);
-Command plugin_test_command(CLI::App& parent);
-Command check_command(CLI::App& parent);
-Command explain_command(CLI::App& parent);
-Command schema_command(CLI::App& parent);
-Command run_command(CLI::App& parent);
-Command verify_command(CLI::App& parent);
-Command study_command(CLI::App& parent);
-Command judge_command(CLI::App& parent);
+Command plugins_command(CommandLine& parent);
+Command plugin_test_command(CommandLine& parent);
+Command check_command(CommandLine& parent);
+Command explain_command(CommandLine& parent);
+Command schema_command(CommandLine& parent);
+Command run_command(CommandLine& parent);
+Command verify_command(CommandLine& parent);
+Command study_command(CommandLine& parent);
+Command judge_command(CommandLine& parent);
 
 /// `--restricted`, `--trust-geometry` and `--limit`, which hold for the whole process. They may stand before
 /// the command's name or after it.
 class Trust {
  public:
-  void add_options(CLI::App& app);
+  void add_options(CommandLine& line);
   /// Makes them the policy of this process. @throws Error
   void apply() const;
 
@@ -59,15 +56,5 @@ struct Failure {
 std::string as_error(const std::string& message);
 /// The exception of the catch block this is called in.
 Failure current_failure();
-
-/// A registry with the types that need no plugin.
-Registry builtin_types();
-
-/// Splits the values of `--set a.b=c` for load_scene().
-/// @throws Error when one has no '='.
-Overrides parse_overrides(const std::vector<std::string>& values);
-
-/// Loads the named plugins, or (with `all`) every one that is found and can be used.
-void load_plugins(const std::vector<std::string>& names, bool all, PluginHost& host, Registry& registry);
 
 }  // namespace seam::cli

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What several commands share.
+#include "common.hpp"
+
 #include <fmt/format.h>
 
 #include "command.hpp"

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "command.hpp"
+#include "common.hpp"
 
 namespace seam::cli {
 
@@ -49,14 +50,14 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command explain_command(CLI::App& parent) {
-  CLI::App* app = parent.add_subcommand(
+Command explain_command(CommandLine& parent) {
+  CommandLine line = parent.add_subcommand(
       "explain", "Show the keys of a type (or of 'scene'); without one, list all types");
   auto options = std::make_shared<Options>();
-  app->add_option("type", options->type, "name of a type, kind:name, or 'scene'");
-  app->add_option("--plugins", options->plugins, "load only these plugins (default: all that are found)")
-      ->delimiter(',');
-  return {app, [options] { return run(*options); }};
+  line.add_option("type", options->type, "name of a type, kind:name, or 'scene'");
+  line.add_option("--plugins", options->plugins, "load only these plugins (default: all that are found)")
+      .delimiter(',');
+  return {line, [options] { return run(*options); }};
 }
 
 }  // namespace seam::cli

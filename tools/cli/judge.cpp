@@ -8,6 +8,7 @@
 
 #include "all_ranks.hpp"
 #include "command.hpp"
+#include "common.hpp"
 #include "seam/record/run_record.hpp"
 
 namespace seam::cli {
@@ -67,13 +68,13 @@ int judge(const Options& options, bool is_root) {
 
 }  // namespace
 
-Command judge_command(CLI::App& parent) {
-  CLI::App* app = parent.add_subcommand(
+Command judge_command(CommandLine& parent) {
+  CommandLine line = parent.add_subcommand(
       "judge", "Compare a recorded run with its scene: the resolved scene, and its checks, evaluated anew");
   auto options = std::make_shared<Options>();
-  app->add_option("scene", options->scene, "YAML file")->required();
-  app->add_option("record", options->record, "folder that tools/record_run.py wrote")->required();
-  return {app,
+  line.add_option("scene", options->scene, "YAML file").required();
+  line.add_option("record", options->record, "folder that tools/record_run.py wrote").required();
+  return {line,
           [options] { return run_on_all_ranks([&](bool is_root) { return judge(*options, is_root); }); }};
 }
 

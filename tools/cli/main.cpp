@@ -23,7 +23,7 @@ int run_chosen(const std::vector<Command>& commands, const Trust& trust) {
   try {
     trust.apply();
     for (const Command& command : commands) {
-      if (command.app->parsed()) return command.run();
+      if (command.line.parsed()) return command.run();
     }
   } catch (...) {
     const Failure failure = current_failure();
@@ -40,19 +40,14 @@ int main(int argc, char** argv) {
   explain_crashes();
   // A file that grows beyond `ulimit -f` is then an error that can be told, as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App app("Seam: multiphysics finite elements with physics in plugins");
-  app.require_subcommand(1);
-  app.set_version_flag("--version", SEAM_VERSION);
-  const std::vector<Command> commands{plugins_command(app), plugin_test_command(app), check_command(app),
-                                      explain_command(app), schema_command(app),      run_command(app),
-                                      verify_command(app),  study_command(app),       judge_command(app)};
+  CommandLine line("Seam: multiphysics finite elements with physics in plugins", SEAM_VERSION);
+  line.require_subcommand();
+  std::vector<Command> commands{plugins_command(line), plugin_test_command(line), check_command(line),
+                                explain_command(line), schema_command(line),      run_command(line),
+                                verify_command(line),  study_command(line),       judge_command(line)};
   Trust trust;
-  trust.add_options(app);
-  for (const Command& command : commands) trust.add_options(*command.app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? ok : broken_input;
-  }
+  trust.add_options(line);
+  for (Command& command : commands) trust.add_options(command.line);
+  if (const auto code = line.parse(argc, argv)) return *code;
   return run_chosen(commands, trust);
 }

@@ -11,9 +11,11 @@
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "all_ranks.hpp"
 #include "command.hpp"
+#include "common.hpp"
 #include "rank_runs.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/program.hpp"
@@ -273,23 +275,23 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command plugin_test_command(CLI::App& parent) {
-  CLI::App* group = parent.add_subcommand("plugin", "Work on one plugin");
-  group->require_subcommand(1);
-  CLI::App* app = group->add_subcommand("test",
-                                        "Check what every plugin must hold: descriptor, schemas, tangents "
-                                        "against finite differences, rewind of a failed "
-                                        "step, restart, independence of the number of ranks");
+Command plugin_test_command(CommandLine& parent) {
+  CommandLine group = parent.add_subcommand("plugin", "Work on one plugin");
+  group.require_subcommand();
+  CommandLine line = group.add_subcommand("test",
+                                          "Check what every plugin must hold: descriptor, schemas, tangents "
+                                          "against finite differences, rewind of a failed "
+                                          "step, restart, independence of the number of ranks");
   auto options = std::make_shared<Options>();
-  app->add_option("file", options->file, "the plugin, libseam_<name>.so")->required();
-  app->add_option("--scene", options->scenes,
+  line.add_option("file", options->file, "the plugin, libseam_<name>.so").required();
+  line.add_option("--scene", options->scenes,
                   "scene that uses it; may be repeated; default those in conformance/<name> beside the file");
-  app->add_option("--ranks", options->ranks, "numbers of ranks to compare; default 1,2,3")->delimiter(',');
+  line.add_option("--ranks", options->ranks, "numbers of ranks to compare; default 1,2,3").delimiter(',');
   // What the command says to those it starts.
-  app->add_option("--child", options->child)->group("");
-  app->add_option("--work", options->work)->group("");
-  app->add_flag("--compare", options->compare)->group("");
-  return {app, [options] { return run(*options); }};
+  line.add_option("--child", options->child).hidden();
+  line.add_option("--work", options->work).hidden();
+  line.add_flag("--compare", options->compare).hidden();
+  return {line, [options] { return run(*options); }};
 }
 
 }  // namespace seam::cli

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "command.hpp"
+#include "common.hpp"
 
 namespace seam::cli {
 
@@ -61,11 +62,11 @@ int list_kinds() {
 
 }  // namespace
 
-Command plugins_command(CLI::App& parent) {
-  CLI::App* command = parent.add_subcommand("plugins", "List the plugins that are found, and where");
+Command plugins_command(CommandLine& parent) {
+  CommandLine line = parent.add_subcommand("plugins", "List the plugins that are found, and where");
   const auto kinds = std::make_shared<bool>(false);
-  command->add_flag("--kinds", *kinds, "List the kinds of types instead, and the types of each");
-  return {command, [kinds] { return *kinds ? list_kinds() : list(); }};
+  line.add_flag("--kinds", *kinds, "List the kinds of types instead, and the types of each");
+  return {line, [kinds] { return *kinds ? list_kinds() : list(); }};
 }
 
 }  // namespace seam::cli

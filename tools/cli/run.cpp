@@ -76,51 +76,44 @@ int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_roo
   return bad == 0 ? ok : failed;
 }
 
-void add_common(CLI::App* app, SceneRun& run) {
-  app->add_option("--set", run.set, "replace a value: key.key=value; may be repeated")->take_all();
-  app->add_flag("--overwrite", run.use.overwrite,
+void add_common(CommandLine& line, SceneRun& run) {
+  line.add_option("--set", run.set, "replace a value: key.key=value; may be repeated").take_all();
+  line.add_flag("--overwrite", run.use.overwrite,
                 "replace what is in the folder, whatever run wrote it and whatever came of it");
-  app->add_option_function<std::string>(
-      "--time-limit",
-      [&run](const std::string& text) {
-        try {
-          run.time_limit = parse_duration(text);
-        } catch (const Error& error) {
-          throw CLI::ValidationError("--time-limit", error.what());
-        }
-      },
+  line.add_option(
+      "--time-limit", [&run](const std::string& text) { run.time_limit = parse_duration(text); },
       "begin no step after so much wall time (90m, 1h30m, seconds): writes a restart point, exit code 124");
-  app->add_flag("--quiet", run.quiet, "no progress line");
-  app->add_flag("!--no-picture", run.pictures, "make no picture");
+  line.add_flag("--quiet", run.quiet, "no progress line");
+  line.add_flag("!--no-picture", run.pictures, "make no picture");
 }
 
 }  // namespace
 
-Command run_command(CLI::App& parent) {
-  CLI::App* app = parent.add_subcommand("run", "Run a scene");
+Command run_command(CommandLine& parent) {
+  CommandLine line = parent.add_subcommand("run", "Run a scene");
   auto options = std::make_shared<SceneRun>();
-  app->add_option("scene", options->scene, "YAML file")->required();
-  app->add_option("--folder", options->folder,
+  line.add_option("scene", options->scene, "YAML file").required();
+  line.add_option("--folder", options->folder,
                   "where results go; default as the scene says, else results/<scene>");
-  CLI::Option* resume = app->add_flag("--resume", options->use.resume,
-                                      "continue from the newest restart point, if there is one");
-  app->add_flag("--changed", options->use.changed, "with --resume: go on although the scene has changed")
-      ->needs(resume);
-  app->add_option("--stop-after", options->stop_after, "take so many steps, and leave a restart point")
-      ->check(CLI::PositiveNumber);
-  add_common(app, *options);
-  resume->excludes("--overwrite");
-  return {app, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
+  Option resume = line.add_flag("--resume", options->use.resume,
+                                "continue from the newest restart point, if there is one");
+  line.add_flag("--changed", options->use.changed, "with --resume: go on although the scene has changed")
+      .needs("--resume");
+  line.add_option("--stop-after", options->stop_after, "take so many steps, and leave a restart point")
+      .positive();
+  add_common(line, *options);
+  resume.excludes("--overwrite");
+  return {line, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
 }
 
-Command verify_command(CLI::App& parent) {
-  CLI::App* app = parent.add_subcommand("verify", "Run scenes and compare each with its checks");
+Command verify_command(CommandLine& parent) {
+  CommandLine line = parent.add_subcommand("verify", "Run scenes and compare each with its checks");
   auto options = std::make_shared<SceneRun>();
   auto scenes = std::make_shared<std::vector<std::string>>();
-  app->add_option("scenes", *scenes, "YAML files")->required();
-  add_common(app, *options);
+  line.add_option("scenes", *scenes, "YAML files").required();
+  add_common(line, *options);
   options->pictures = false;
-  return {app, [options, scenes] {
+  return {line, [options, scenes] {
             return run_on_all_ranks([&](bool is_root) { return verify(*scenes, *options, is_root); });
           }};
 }

@@ -4,8 +4,11 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "command.hpp"
+#include "seam/base/diagnostics.hpp"
 #include "seam/run/simulation.hpp"
 
 namespace seam::cli {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "all_ranks.hpp"
+#include "common.hpp"
 #include "run.hpp"
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "command.hpp"
+#include "seam/base/diagnostics.hpp"
 #include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
 #include "study_report.hpp"
@@ -283,18 +284,18 @@ int run(const Options& options) {
 
 }  // namespace
 
-Command study_command(CLI::App& parent) {
-  CLI::App* app =
+Command study_command(CommandLine& parent) {
+  CommandLine line =
       parent.add_subcommand("study", "Run a scene over the ranges of its study block and compare the runs");
   auto options = std::make_shared<Options>();
-  app->add_option("scene", options->scene, "YAML file with a study block")->required();
-  app->add_option("--set", options->set, "replace a value in all runs: key.key=value; may be repeated")
-      ->take_all();
-  app->add_option("--folder", options->folder, "where results go; default results/<scene>-study");
-  app->add_flag("--overwrite", options->overwrite,
+  line.add_option("scene", options->scene, "YAML file with a study block").required();
+  line.add_option("--set", options->set, "replace a value in all runs: key.key=value; may be repeated")
+      .take_all();
+  line.add_option("--folder", options->folder, "where results go; default results/<scene>-study");
+  line.add_flag("--overwrite", options->overwrite,
                 "replace what is in the folders of the cases, whatever wrote it");
-  app->add_option("--record", options->record, "copy table and picture to docs/results/<name>, too");
-  return {app, [options] { return run(*options); }};
+  line.add_option("--record", options->record, "copy table and picture to docs/results/<name>, too");
+  return {line, [options] { return run(*options); }};
 }
 
 }  // namespace seam::cli

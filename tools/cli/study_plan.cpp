@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common.hpp"
 #include "seam/scene/expression.hpp"
 
 namespace seam::cli {

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
-
 namespace seam::cli {
 
 /// One run of a study.

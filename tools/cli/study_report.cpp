@@ -9,6 +9,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "seam/base/diagnostics.hpp"
 #include "seam/scene/expression.hpp"
 
 namespace seam::cli {

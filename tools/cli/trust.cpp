@@ -42,18 +42,18 @@ void confine_process(const Limits& limits) {
 
 }  // namespace
 
-void Trust::add_options(CLI::App& app) {
-  app.add_flag(
+void Trust::add_options(CommandLine& line) {
+  line.add_flag(
       "--restricted", restricted_,
       "for scenes of strangers: nothing outside the scene's folder is read, no geometry (.geo) and none but "
       "installed plugins are run, and limits are tight");
-  app.add_flag("--trust-geometry", trust_geometry_, "let geometries (.geo) start programs and open files");
-  app.add_option("--limit", limits_,
-                 "another limit: NAME=NUMBER with cells, facets, unknowns, file_bytes, mesher_seconds, "
-                 "mesher_bytes or "
-                 "seconds; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false);
+  line.add_flag("--trust-geometry", trust_geometry_, "let geometries (.geo) start programs and open files");
+  line.add_option("--limit", limits_,
+                  "another limit: NAME=NUMBER with cells, facets, unknowns, file_bytes, mesher_seconds, "
+                  "mesher_bytes or "
+                  "seconds; may be repeated")
+      .take_all()
+      .one_word_each();
 }
 
 void Trust::apply() const {
