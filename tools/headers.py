@@ -5,8 +5,8 @@
     tools/headers.py list              their names
     tools/headers.py hash [FILE]       a hash of their tokens, comments left out; written as a C++ header to FILE
     tools/headers.py install FOLDER    copies them
-    tools/headers.py check             whether docs/write-a-plugin.md names public headers only, and core/seam/plugin/abi.txt
-                                       holds this hash for the plugin ABI's number
+    tools/headers.py check             whether docs/write-a-plugin.md names public headers only, none but plugin.hpp includes
+                                       the hash, and core/seam/plugin/abi.txt holds it for the plugin ABI's number
     tools/headers.py record            writes it there, after the number in descriptor.hpp was raised
 
 Public is what ENTRIES name and all that these include. The rest may change at any time.
@@ -23,10 +23,10 @@ ABI = CORE / "seam/plugin/abi.txt"
 GUIDE = CORE.parent / "docs/write-a-plugin.md"
 ENTRIES = """
     assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp interface/adjoint.hpp interface/cell_constant.hpp
-    interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp physics/body_terms.hpp physics/hyperelastic.hpp
+    interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp mesh/quadrature.hpp physics/body_terms.hpp physics/hyperelastic.hpp
     physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
     plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp
-    scene/schema.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp
+    scene/schema.hpp state/state_store.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp
     term/symmetric.hpp term/tensor.hpp
 """.split()
 # Of plugins whose types others can extend: installed as seam/plugins/..., with what they include beside them.
@@ -81,6 +81,13 @@ def check():
     if hidden:
         print(f"{GUIDE.relative_to(CORE.parent)} names {', '.join(sorted(hidden))}, which no installation has: add them to "
               "ENTRIES of tools/headers.py", file=sys.stderr)
+        return 1
+    # They change with any public header: who includes them is compiled anew each time.
+    seen = [str(path.relative_to(CORE)) for path in CORE.rglob("*.hpp")
+            if re.search(r'#include "seam/plugin/(fingerprint|headers)\.hpp"', path.read_text())]
+    if seen != ["seam/plugin/plugin.hpp"]:
+        print(f"{', '.join(seen)} include the fingerprint or the hash of headers; only seam/plugin/plugin.hpp may: take "
+              "host_fingerprint() and host_headers() of plugin_info.hpp", file=sys.stderr)
         return 1
     recorded = dict(line.split() for line in ABI.read_text().splitlines() if line and not line.startswith("#"))
     number, found = abi_number(), headers_hash()

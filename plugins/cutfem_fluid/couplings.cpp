@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "fluid_fluid.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/adjoint.hpp"
 #include "seam/interface/interface.hpp"
 #include "weak_condition.hpp"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "coupling_sides.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/interface.hpp"
 
 namespace seam::fsci {

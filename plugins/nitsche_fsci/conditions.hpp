@@ -20,6 +20,12 @@ struct Flow {
   bool convection;   ///< false: Stokes flow
 };
 
+/// How Nitsche's method ties the fluid.
+struct Ties {
+  double adjoint;                             ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
+  double normal_penalty, tangential_penalty;  ///< gamma_n, gamma_t; gamma_t may be infinite
+};
+
 /// A given difference between the two sides: a function at the place where the point is now minus one at the
 /// material point of the body. Empty lists stand for zero.
 struct Jump {

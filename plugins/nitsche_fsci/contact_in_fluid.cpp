@@ -3,6 +3,7 @@
 
 #include "contact_in_fluid_kernels.hpp"
 #include "coupling_sides.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/interface.hpp"
 #include "trace_eigenvalue.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "seam/field/field.hpp"
 #include "trace_eigenvalue.hpp"
 
 namespace seam::fsci {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "contact_kernels.hpp"
-#include "fluid_sided.hpp"
+#include "body_pull.hpp"
 #include "seam/interface/adjoint.hpp"
 #include "seam/interface/interface.hpp"
 

@@ -44,12 +44,6 @@ struct Slip {
   }
 };
 
-/// How Nitsche's method ties the fluid.
-struct Ties {
-  double adjoint;                             ///< xi: +1 skew-symmetric, -1 symmetric, 0 none
-  double normal_penalty, tangential_penalty;  ///< gamma_n, gamma_t; gamma_t may be infinite
-};
-
 /// Ties the fluid to a surface that moves with another velocity. With n out of the fluid, J the difference of
 /// velocities, P = I - n n^T, Phi = h_Gamma phi of (3.27), lambda = slip length/mu and beta =
 /// h_Gamma/(gamma_t Phi), the fluid gets

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "conditions.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/interface.hpp"
 #include "seam/term/moving_mesh.hpp"
 

@@ -3,8 +3,11 @@
 
 #include <fmt/ranges.h>
 
+#include "seam/assembly/element.hpp"
 #include "seam/assembly/remote_cells.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/lagrange.hpp"
 
 namespace seam::solid {
 namespace {

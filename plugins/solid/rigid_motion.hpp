@@ -5,6 +5,7 @@
 
 #include "rotation.hpp"
 #include "seam/assembly/ties.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam::solid {
 

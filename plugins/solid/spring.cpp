@@ -5,7 +5,9 @@
 
 #include "link.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/interface.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "spring_kernels.hpp"
 
 namespace seam::solid {

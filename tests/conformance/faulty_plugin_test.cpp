@@ -2,6 +2,7 @@
 // A plugin that goes wrong is named, with its type, field, line of the scene, term and cell; the process ends
 // with the code for a plugin's failure; the conformance kit survives it.
 #include <csignal>
+#include <fstream>
 #include <string>
 #include <vector>
 

@@ -8,6 +8,7 @@
 
 #include "seam/mesh/input/grid.hpp"
 #include "seam/mesh/quadrature.hpp"
+#include "seam/state/state_store.hpp"
 
 using namespace seam;
 

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "seam/field/field.hpp"
 #include "seam/mesh/mesh.hpp"
 
 using namespace seam;

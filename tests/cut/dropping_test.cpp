@@ -9,6 +9,7 @@
 #include "cut/cut_test.hpp"
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/state/state_store.hpp"
 
 using namespace seam;
 

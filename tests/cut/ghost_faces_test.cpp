@@ -5,6 +5,7 @@
 
 #include "cut/cut_test.hpp"
 #include "seam/assembly/domains.hpp"
+#include "seam/field/field.hpp"
 
 using namespace seam;
 using Faces = InteriorFaceDomain::Faces;

@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "cut/cut_test.hpp"
+#include "seam/cut/interface_motion.hpp"
+#include "seam/surface/moving_facet.hpp"
 
 using namespace seam;
 

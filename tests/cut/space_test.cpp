@@ -7,6 +7,7 @@
 
 #include "cut/cut_test.hpp"
 #include "seam/mesh/quadrature.hpp"
+#include "seam/surface/moving_facet.hpp"
 
 using namespace seam;
 

@@ -7,6 +7,9 @@
 #include <random>
 #include <utility>
 
+#include "seam/assembly/assembler.hpp"
+#include "seam/field/field.hpp"
+
 namespace seam::test {
 namespace {
 

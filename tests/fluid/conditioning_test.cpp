@@ -13,6 +13,7 @@
 
 #include "condition.hpp"
 #include "cut_flow.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/surface/body.hpp"
 
 using namespace seam;

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "fluid.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/scene/validate.hpp"
 
 namespace seam::test {

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "flow_problem.hpp"
+#include "seam/field/field.hpp"
 #include "solver/krylov.hpp"
 
 using namespace seam;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "cut_flow.hpp"
+#include "seam/cut/cut_mesh.hpp"
+#include "seam/field/field.hpp"
 #include "seam/run/time_error.hpp"
 
 using namespace seam;

@@ -5,8 +5,12 @@
 
 #include "exact_state.hpp"
 #include "kernels.hpp"
+#include "seam/assembly/remote_cells.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/cell_constant.hpp"
+#include "seam/interface/cell_constants.hpp"
 #include "seam/mesh/input/grid.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "trace_eigenvalue.hpp"
 
 using namespace seam;

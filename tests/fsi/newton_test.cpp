@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How Newton's method converges where bodies cut the mesh.
+#include <algorithm>
 #include <cli/run_command.hpp>
 #include <nlohmann/json.hpp>
 #include <vector>

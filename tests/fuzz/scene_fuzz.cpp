@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "seam/plugin/plugin_host.hpp"
+#include "seam/plugin/registry.hpp"
 #include "seam/scene/scene.hpp"
 #include "test_types.hpp"
 

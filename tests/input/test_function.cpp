@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <catch2/catch.hpp>
 
+#include "seam/plugin/plugin_host.hpp"
 #include "seam/scene/function.hpp"
 #include "seam/scene/scene.hpp"
 #include "test_types.hpp"

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "golden.hpp"
+#include "seam/plugin/descriptor.hpp"
 #include "seam/plugin/plugin_host.hpp"
 #include "seam/scene/scene.hpp"
 #include "test_types.hpp"

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "golden.hpp"
+#include "seam/plugin/plugin_host.hpp"
 #include "seam/scene/function.hpp"
 #include "seam/scene/resolved.hpp"
 #include "test_types.hpp"

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "golden.hpp"
+#include "seam/plugin/plugin_host.hpp"
 #include "seam/scene/explain.hpp"
 #include "seam/scene/json_schema.hpp"
 #include "seam/scene/scene.hpp"

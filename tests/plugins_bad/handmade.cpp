@@ -2,8 +2,10 @@
 // A descriptor with one member changed, and no function to register anything. Its constructor ends the
 // process, so the tests fail when code of an incompatible plugin runs.
 #include <cstdlib>
+#include <string>
 
 #include "seam/plugin/descriptor.hpp"
+#include "seam/plugin/fingerprint.hpp"
 #include "seam/plugin/headers.hpp"
 
 #ifndef ABI_MAJOR

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What couplings measure point by point, against what is recorded of the same measures.
+#include <algorithm>
 #include <cmath>
 
 #include "cli/run_command.hpp"

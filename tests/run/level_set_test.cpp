@@ -2,7 +2,9 @@
 // Bodies given by a function in a scene.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
+#include <sstream>
 
 #include "cli/run_command.hpp"
 #include "series.hpp"

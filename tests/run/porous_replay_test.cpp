@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Porous bodies, alone and in a flow, step by step again: on other numbers of ranks and from a restart point.
+#include <algorithm>
+
 #include "cli/run_command.hpp"
 #include "series.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A run that was interrupted, in any way, continues as if it had not been.
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>

@@ -9,14 +9,8 @@ namespace seam_cli_test {
 /// A run of a scene that is written out, in a folder that goes with it.
 struct Run {
   /// @param before the command, as of seam()
-  explicit Run(const std::string& text, const std::string& options = "", const std::string& before = "") {
-    done = seam("run " + folder.file("scene.yaml", text) + " --no-picture --folder " +
-                    (folder.path / "out").string() + " " + options,
-                before);
-  }
-  [[nodiscard]] std::vector<double> series(const std::string& name) const {
-    return column(folder.read("out/series.csv"), name);
-  }
+  explicit Run(const std::string& text, const std::string& options = "", const std::string& before = "");
+  [[nodiscard]] std::vector<double> series(const std::string& name) const;
   Folder folder;
   Result done;
 };
@@ -26,19 +20,11 @@ class ShippedRun {
  public:
   /// @param before the command, as of seam()
   explicit ShippedRun(const std::string& scene, const std::string& options = "",
-                      const std::string& before = "") {
-    const Result done =
-        seam("run " SEAM_SOURCE_DIR "/configs/" + scene + ".yaml --no-picture --quiet --folder " +
-                 (folder_.path / "out").string() + " --set output.fields=false " + options,
-             before);
-    INFO(done.output);
-    REQUIRE(done.code == 0);
-    csv = folder_.read("out/series.csv");
-  }
-  [[nodiscard]] std::vector<double> series(const std::string& name) const { return column(csv, name); }
+                      const std::string& before = "");
+  [[nodiscard]] std::vector<double> series(const std::string& name) const;
   /// At the end.
-  [[nodiscard]] double operator()(const std::string& name) const { return series(name).back(); }
-  [[nodiscard]] std::string summary() const { return folder_.read("out/summary.json"); }
+  [[nodiscard]] double operator()(const std::string& name) const;
+  [[nodiscard]] std::string summary() const;
   std::string csv;
 
  private:

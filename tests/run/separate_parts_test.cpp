@@ -2,6 +2,11 @@
 // Fluid on the two sides of a plate that is thinner than a cell.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
 #include "cli/run_command.hpp"
 #include "series.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Which time steps a run takes.
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 

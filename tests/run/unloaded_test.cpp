@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What nothing acts on converges, and what is no number does not.
+#include <cmath>
+
 #include "cli/run_command.hpp"
 #include "series.hpp"
 

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "diffusion.hpp"
+#include "seam/assembly/assembler.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace {
 

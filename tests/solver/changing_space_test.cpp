@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "diffusion.hpp"
+#include "seam/assembly/assembler.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace {
 

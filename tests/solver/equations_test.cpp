@@ -5,8 +5,10 @@
 #include <random>
 
 #include "seam/base/plugin_fault.hpp"
+#include "seam/field/field.hpp"
 #include "seam/linear/equilibration.hpp"
 #include "seam/linear/mumps_solver.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/solve/newton.hpp"
 #include "solver/diffusion.hpp"
 #include "solver/krylov.hpp"

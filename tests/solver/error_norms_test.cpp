@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "seam/mesh/mesh.hpp"
 #include "solver/diffusion.hpp"
 
 using namespace seam;

@@ -5,7 +5,11 @@
 #include <cmath>
 
 #include "diffusion.hpp"
+#include "seam/assembly/assembler.hpp"
+#include "seam/cut/field_cut.hpp"
+#include "seam/field/field.hpp"
 #include "seam/interface/matching.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/record/error_norms.hpp"
 #include "solver/krylov.hpp"
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "diffusion.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace {
 

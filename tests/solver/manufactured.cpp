@@ -5,6 +5,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
+
 namespace seam::test {
 namespace {
 

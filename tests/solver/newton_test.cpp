@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include "diffusion.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace {
 

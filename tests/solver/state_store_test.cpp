@@ -5,6 +5,8 @@
 #include <catch2/catch.hpp>
 
 #include "diffusion.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 
 using namespace seam;
 using Catch::Matchers::Contains;

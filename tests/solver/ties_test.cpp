@@ -4,8 +4,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/conformance/tangent.hpp"
 #include "seam/constraint/constraint.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/plugin/registry.hpp"
 #include "solver/diffusion.hpp"
 

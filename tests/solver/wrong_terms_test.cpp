@@ -4,8 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "seam/assembly/evaluator.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/base/plugin_fault.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "solver/diffusion.hpp"
 
 using namespace seam;

@@ -13,8 +13,11 @@
 #include <string>
 
 #include "poroelasticity/kernels.hpp"
+#include "seam/assembly/assembler.hpp"
 #include "seam/base/stopwatch.hpp"
+#include "seam/field/field.hpp"
 #include "seam/mesh/input/grid.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/solve/problem.hpp"
 #include "seam/term/kernel_term.hpp"
 #include "solid/kernels.hpp"

@@ -12,6 +12,7 @@
 
 #include "command.hpp"
 #include "common.hpp"
+#include "seam/plugin/descriptor.hpp"
 
 namespace seam::cli {
 

@@ -6,10 +6,17 @@
 #include <limits>
 #include <map>
 
+#include "seam/assembly/element.hpp"
+#include "seam/assembly/evaluator.hpp"
+#include "seam/assembly/time_point.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/base/stopwatch.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace seam {
+
+Assembler::~Assembler() = default;
 
 Assembler::Assembler(std::vector<Field*> fields, const Communicator& communicator)
     : fields_(std::move(fields)), communicator_(communicator) {

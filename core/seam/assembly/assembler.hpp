@@ -6,13 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "seam/assembly/evaluator.hpp"
+#include "seam/assembly/bound_term.hpp"
 #include "seam/assembly/node_graph.hpp"
 #include "seam/assembly/ties.hpp"
 #include "seam/linear/equation_block.hpp"
 #include "seam/linear/matrix.hpp"
 
 namespace seam {
+
+class ElementEvaluator;
+class Field;
+class IntegrationDomain;
+struct Block;
+struct TimePoint;
 
 /// Turns fields and terms into one distributed nonlinear system. Unknowns are the active ones of all blocks
 /// of all fields; those of a node are contiguous. The set of active unknowns, of elements and of prescribed
@@ -21,10 +27,13 @@ namespace seam {
 class Assembler {
  public:
   Assembler(std::vector<Field*> fields, const Communicator& communicator);
+  ~Assembler();
+  Assembler(const Assembler&) = delete;
+  Assembler& operator=(const Assembler&) = delete;
 
   /// Adds terms to be integrated over a domain.
   void add(const std::shared_ptr<const IntegrationDomain>& domain, const std::vector<BoundTerm>& terms,
-           ElementEvaluator::Role role = ElementEvaluator::Role::integrate);
+           ElementRole role = ElementRole::integrate);
 
   /// Ties unknowns from now on, in the place of those tied before. Collective.
   /// @return true when what is tied to what has changed: then rebuild() has to follow

@@ -7,6 +7,7 @@
 
 #include "seam/assembly/assembler.hpp"
 #include "seam/assembly/together.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "seam/assembly/limits.hpp"
 #include "seam/base/plugin_fault.hpp"
+#include "seam/field/field.hpp"
 #include "seam/term/term_name.hpp"
 
 namespace seam {

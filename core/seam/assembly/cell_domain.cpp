@@ -3,6 +3,8 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/quadrature.hpp"
 
 namespace seam {
 

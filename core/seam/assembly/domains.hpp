@@ -6,9 +6,12 @@
 #include <vector>
 
 #include "seam/assembly/element.hpp"
+#include "seam/field/field.hpp"
 #include "seam/physics/physics.hpp"
 
 namespace seam {
+
+struct Quadrature;
 
 /// The quadrature points of one part of a cut cell, or of its boundary.
 struct CutPoints {

@@ -7,6 +7,9 @@
 #include <numeric>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/field/field.hpp"
+#include "seam/interface/cell_constant.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/term/tensor.hpp"
 
 namespace seam {

@@ -3,16 +3,16 @@
 
 #include <array>
 #include <memory>
+#include <string>
 #include <vector>
 
-#include "seam/field/field.hpp"
 #include "seam/mesh/lagrange.hpp"
-#include "seam/mesh/quadrature.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
 
 class CellConstant;
+class Field;
 
 /// One side of an element: a cell, and the reference coordinates of the element's points in it.
 struct ElementSide {

@@ -11,6 +11,7 @@
 #include "seam/assembly/limits.hpp"
 #include "seam/assembly/steady_part.hpp"
 #include "seam/base/plugin_fault.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {
@@ -44,6 +45,15 @@ int failing_point(const Term& term, const PointBatch& batch) {
 }
 
 }  // namespace
+
+ElementEvaluator::~ElementEvaluator() = default;
+
+bool BoundTerm::holds(const Element& element) const {
+  return std::ranges::all_of(regions, [&](const Region& r) {
+    const ElementSide& side = element.sides[r.side];
+    return side.field->region(side.global_cell) == r.region;
+  });
+}
 
 const double* ElementEvaluator::Operators::of(Shape shape) const {
   switch (shape) {

@@ -1,43 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "seam/assembly/bound_term.hpp"
 #include "seam/assembly/contraction.hpp"
 #include "seam/assembly/element.hpp"
 #include "seam/assembly/time_point.hpp"
-#include "seam/base/diagnostics.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
 
-/// A term and where its operands are found.
-struct BoundTerm {
-  std::shared_ptr<const Term> term;
-  std::vector<Operand> operands;
-  std::array<int, 2> constants{-1, -1};  ///< indices into Element::constants, -1 when the term reads none
-  /// Where sides' physics tell regions apart (Field::region): those in which the term holds, one a side.
-  struct Region {
-    int side, region;
-  };
-  std::vector<Region> regions = {};
-  Location where = {};  ///< in the scene: the field or coupling that the term belongs to
-  /// Whether the term holds on an element.
-  [[nodiscard]] bool holds(const Element& element) const {
-    return std::ranges::all_of(regions, [&](const Region& r) {
-      const ElementSide& side = element.sides[r.side];
-      return side.field->region(side.global_cell) == r.region;
-    });
-  }
-};
-
-/// How values at the points of a domain become one number.
-enum class MeasureOf { norm, integral, least, greatest };
+class Field;
+struct Block;
 
 /// Computes element vectors and matrices of all terms of a domain. Rows and columns of an element are ordered
 /// by part (one per side and block in use), then component, then node, padded: component-major, so that the
@@ -47,15 +25,12 @@ enum class MeasureOf { norm, integral, least, greatest };
 /// weights, normals and the traces of all sides there are differentiated with respect to the body's nodes.
 class ElementEvaluator {
  public:
-  /// What the elements are to the terms.
-  enum class Role {
-    integrate,          ///< the terms are integrated over the elements
-    integrate_at_rest,  ///< the same, but how the points move is left out of the tangent
-    sweep  ///< the elements bound a volume over which the terms are integrated: only the tangent's part that
-           ///< stems from the elements' sweeping over that volume is computed
-  };
+  using Role = ElementRole;
   ElementEvaluator(const IntegrationDomain& domain, const std::vector<BoundTerm>& terms,
                    Role role = Role::integrate);
+  ~ElementEvaluator();
+  ElementEvaluator(const ElementEvaluator&) = delete;
+  ElementEvaluator& operator=(const ElementEvaluator&) = delete;
 
   /// One block on one side.
   struct SideBlock {

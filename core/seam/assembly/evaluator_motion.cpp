@@ -2,6 +2,7 @@
 // How integrals over a surface that moves with a body change with the body's nodes.
 #include "seam/assembly/evaluator.hpp"
 #include "seam/assembly/limits.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 

@@ -2,6 +2,7 @@
 // What an element's terms say that is no finite number, in words.
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "seam/assembly/binding.hpp"

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "seam/assembly/domains.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/quadrature.hpp"
 
 namespace seam {
 namespace {

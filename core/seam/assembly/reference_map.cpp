@@ -6,6 +6,8 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace seam {
 

@@ -4,6 +4,10 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "seam/assembly/element.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
+
 namespace seam {
 
 void RemoteCell::attach(ElementSide& side, const Field& field) const {

@@ -3,9 +3,10 @@
 
 #include <vector>
 
-#include "seam/assembly/element.hpp"
-
 namespace seam {
+
+class Field;
+struct ElementSide;
 
 /// A cell that may be owned by any rank: what an interface needs to evaluate it here.
 struct RemoteCell {

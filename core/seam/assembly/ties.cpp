@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "seam/assembly/together.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "seam/base/diagnostics.hpp"
-#include "seam/field/field.hpp"
 
 namespace seam {
+
+class Field;
 
 /// An unknown by numbers that mean the same on all ranks.
 struct UnknownPlace {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "seam/conformance/tangent.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {

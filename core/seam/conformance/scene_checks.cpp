@@ -7,9 +7,11 @@
 #include <cstring>
 #include <map>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/conformance/constraints.hpp"
 #include "seam/conformance/tangent.hpp"
+#include "seam/field/field.hpp"
 #include "seam/record/evaluate.hpp"
 #include "seam/run/simulation.hpp"
 

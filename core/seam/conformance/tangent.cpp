@@ -8,7 +8,11 @@
 #include <memory>
 #include <random>
 
+#include "seam/assembly/assembler.hpp"
+#include "seam/assembly/element.hpp"
+#include "seam/assembly/evaluator.hpp"
 #include "seam/conformance/finite_difference.hpp"
+#include "seam/field/field.hpp"
 #include "seam/linear/linear_solver.hpp"
 #include "seam/term/term_name.hpp"
 

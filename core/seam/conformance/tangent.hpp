@@ -9,6 +9,8 @@
 
 namespace seam {
 
+class Assembler;
+
 /// Largest error of a tangent against finite differences, and the block of the system it is in.
 struct TangentError {
   double relative = 0;

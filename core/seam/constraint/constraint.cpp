@@ -2,6 +2,7 @@
 #include "seam/constraint/constraint.hpp"
 
 #include "seam/constraint/types.hpp"
+#include "seam/plugin/registry.hpp"
 
 namespace seam {
 

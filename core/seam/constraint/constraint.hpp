@@ -9,6 +9,7 @@
 
 namespace seam {
 
+class Field;
 class Registry;
 
 /// The fields of a scene while its constraints are built.

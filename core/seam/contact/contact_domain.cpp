@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seam/mesh/quadrature.hpp"
+
 namespace seam {
 
 using namespace cutting;

@@ -11,6 +11,7 @@
 #include "seam/contact/passage.hpp"
 #include "seam/interface/begins_steps.hpp"
 #include "seam/interface/cell_constant.hpp"
+#include "seam/interface/cell_constants.hpp"
 #include "seam/surface/body_surface.hpp"
 
 namespace seam {

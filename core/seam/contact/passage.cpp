@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "seam/contact/facet_vertices.hpp"
+#include "seam/field/field.hpp"
+#include "seam/state/state_store.hpp"
 
 namespace seam {
 

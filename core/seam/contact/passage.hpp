@@ -7,6 +7,9 @@
 
 namespace seam {
 
+template <class T>
+class StateArray;
+
 /// Watches over two surfaces that may touch: neither must end up behind the other one. Nothing in the
 /// equations forbids it. A state in which bodies have passed through each other solves them all, since no
 /// point has an opposite one any more, and a long step or a large increment gets there at once.

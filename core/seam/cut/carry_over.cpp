@@ -5,6 +5,7 @@
 
 #include "seam/cut/cells_of_nodes.hpp"
 #include "seam/cut/part_sets.hpp"
+#include "seam/state/state_store.hpp"
 
 namespace seam {
 namespace {

@@ -5,6 +5,8 @@
 
 #include <map>
 
+#include "seam/cut/interface_motion.hpp"
+
 namespace seam {
 
 CutBoundary::CutBoundary(Field& field, const FieldCut& cut, int body, int degree)

@@ -9,12 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include "seam/cut/interface_motion.hpp"
 #include "seam/cut/wet_parts.hpp"
 #include "seam/mesh/mesh.hpp"
 #include "seam/surface/surface.hpp"
 
 namespace seam {
+
+struct InterfaceMotion;
 
 /// Where a background cell lies: wholly outside all bodies, wholly inside them, or partly.
 enum class CellState : char { wet, body, cut };

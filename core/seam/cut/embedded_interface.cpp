@@ -7,7 +7,11 @@
 
 #include "seam/cut/cut_boundary.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/cut/interface_motion.hpp"
+#include "seam/interface/cell_constant.hpp"
+#include "seam/interface/cell_constants.hpp"
 #include "seam/surface/body_surface.hpp"
+#include "seam/surface/moving_facet.hpp"
 
 namespace seam {
 namespace {

@@ -11,6 +11,7 @@
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/evaluator.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/state/state_store.hpp"
 #include "seam/term/kernel_term.hpp"
 
 namespace seam {

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/cut/part_sets.hpp"
+#include "seam/state/state_store.hpp"
 
 namespace seam {
 namespace {
@@ -16,6 +18,15 @@ namespace {
 constexpr double smallest_kept = 2;
 
 }  // namespace
+
+FieldCut::~FieldCut() = default;
+
+FieldCut::Decision FieldCut::decision(int cell) const { return static_cast<Decision>(decision_.now()[cell]); }
+
+void FieldCut::hold() {
+  held_.now() = active_;
+  field_->keep_cut_faces(true);
+}
 
 FieldCut::FieldCut(Field& field)
     : field_(&field),

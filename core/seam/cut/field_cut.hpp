@@ -9,10 +9,15 @@
 
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/extension.hpp"
-#include "seam/cut/part_sets.hpp"
 #include "seam/surface/body.hpp"
 
 namespace seam {
+
+class Field;
+struct PartLayout;
+class PartSets;
+template <class T>
+class StateArray;
 
 /// The bodies that cut a field's mesh, and what their motion means for the field: which cells and nodes are
 /// active, and how states reach nodes that come alive (thesis 3.2).
@@ -28,6 +33,9 @@ namespace seam {
 class FieldCut {
  public:
   explicit FieldCut(Field& field);
+  ~FieldCut();
+  FieldCut(const FieldCut&) = delete;
+  FieldCut& operator=(const FieldCut&) = delete;
 
   /// The surface of a body at a time; must give the same on all ranks.
   using Body = MovingSurface;
@@ -41,10 +49,7 @@ class FieldCut {
 
   /// Cells that are active now stay so to the end of the step: covered ones keep their unknowns, held by
   /// ghost penalties alone (thesis 6.3.2), and faces that bear these go on to do so.
-  void hold() {
-    held_.now() = active_;
-    field_->keep_cut_faces(true);
-  }
+  void hold();
 
   /// Cuts the mesh with the bodies as they are at `time` and extends all states, old ones included, to nodes
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
@@ -71,7 +76,7 @@ class FieldCut {
   /// States are those of a step that ended at `time`: cuts at that time follow what had been decided by then,
   /// and the next step decides anew.
   void return_to(double time);
-  [[nodiscard]] Decision decision(int cell) const { return static_cast<Decision>(decision_.now()[cell]); }
+  [[nodiscard]] Decision decision(int cell) const;
   [[nodiscard]] bool states_match() const;
   void uncover(const std::vector<char>& before);
   void choose_sets();

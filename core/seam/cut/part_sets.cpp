@@ -8,6 +8,7 @@
 
 #include "seam/base/disjoint_sets.hpp"
 #include "seam/cut/cells_of_nodes.hpp"
+#include "seam/state/entities.hpp"
 
 namespace seam {
 namespace {

@@ -6,6 +6,7 @@
 #include "seam/cut/cell_map.hpp"
 #include "seam/cut/fitted_rule.hpp"
 #include "seam/cut/geometry.hpp"
+#include "seam/cut/interface_motion.hpp"
 #include "seam/cut/moments.hpp"
 #include "seam/cut/moving_piece.hpp"
 #include "seam/mesh/lagrange.hpp"

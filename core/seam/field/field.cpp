@@ -7,6 +7,7 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/state/state_store.hpp"
 
 namespace seam {
 
@@ -25,6 +26,13 @@ struct Shared {
 };
 
 }  // namespace
+
+Field::~Field() = default;
+
+std::vector<char>* Field::cut_faces(bool wet) const {
+  StateArray<char>* faces = wet ? wet_cut_faces_ : cut_faces_;
+  return faces != nullptr ? &faces->now() : nullptr;
+}
 
 Block::Block(const States& states, std::unique_ptr<Space>&& on)
     : space(std::move(on)),
@@ -52,7 +60,8 @@ Block::Block(StateStore& store, const std::string& name, std::unique_ptr<Space> 
 }
 
 Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets)
-    : name_(std::move(name)),
+    : state_(std::make_unique<StateStore>()),
+      name_(std::move(name)),
       mesh_(&mesh),
       unknowns_(std::move(unknowns)),
       active_cells_(mesh.cells(), 1),

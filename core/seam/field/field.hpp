@@ -10,12 +10,14 @@
 #include "seam/field/part_layout.hpp"
 #include "seam/field/unknown.hpp"
 #include "seam/space/space.hpp"
-#include "seam/state/state_store.hpp"
 
 namespace seam {
 
 class CutMesh;
 class Law;
+class StateStore;
+template <class T>
+class StateArray;
 
 /// Nodal values of a block at one instant, as its field's store of states keeps them: [node][component], and
 /// their rates as the time scheme defines them.
@@ -63,6 +65,7 @@ class Field {
  public:
   /// Collective. @param sets of unknowns that a node can have at most, see PartLayout
   Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, int sets = 1);
+  ~Field();
   Field(const Field&) = delete;
   Field& operator=(const Field&) = delete;
 
@@ -161,14 +164,11 @@ class Field {
   /// the field.
   void remember_cut_faces();
   /// Those, or those of them that are wet in part, [interior face of the mesh]; null where nothing cuts it.
-  [[nodiscard]] std::vector<char>* cut_faces(bool wet) const {
-    StateArray<char>* faces = wet ? wet_cut_faces_ : cut_faces_;
-    return faces != nullptr ? &faces->now() : nullptr;
-  }
+  [[nodiscard]] std::vector<char>* cut_faces(bool wet) const;
 
  private:
   void resize(Block& block) const;
-  std::unique_ptr<StateStore> state_ = std::make_unique<StateStore>();
+  std::unique_ptr<StateStore> state_;
   std::string name_;
   const Mesh* mesh_;
   std::vector<Unknown> unknowns_;

@@ -7,15 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "seam/assembly/evaluator.hpp"
-#include "seam/interface/cell_constant.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/surface/body.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
 
+class CellConstant;
+class Field;
 class FieldCut;
+class IntegrationDomain;
+class Law;
 
 /// What the core hands to an interface when a scene is built.
 class InterfaceSetup {
@@ -68,10 +70,11 @@ struct CouplingSides {
   /// coupling is asked for its terms and measures for each combination of them.
   std::vector<int> regions;
   /// A law of a side's field there (Field::law); null when it has none of this name.
-  [[nodiscard]] std::shared_ptr<const Law> law(int side, const std::string& name) const {
-    return fields.at(side)->law(name, regions.at(side));
-  }
+  [[nodiscard]] std::shared_ptr<const Law> law(int side, const std::string& name) const;
 };
+
+/// How values at the points of a domain become one number.
+enum class MeasureOf { norm, integral, least, greatest };
 
 /// What happens where fields meet. A type of kind "coupling"; its schema must have the key `on`.
 class Coupling {

@@ -11,6 +11,9 @@
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/remote_cells.hpp"
 #include "seam/assembly/together.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
+#include "seam/mesh/quadrature.hpp"
 
 namespace seam {
 namespace {

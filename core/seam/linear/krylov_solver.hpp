@@ -13,6 +13,8 @@
 
 namespace seam {
 
+class Registry;
+
 /// GMRES (Belos), preconditioned by block Gauss-Seidel over the fields, each by a block inverse (see
 /// BlockInverse). The preconditioner is kept while iteration counts stay low.
 class KrylovSolver final : public LinearSolver {

@@ -4,14 +4,17 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "seam/base/diagnostics.hpp"
-#include "seam/field/field.hpp"
+#include "seam/field/unknown.hpp"
 #include "seam/scene/expression.hpp"
 #include "seam/term/term.hpp"
 
 namespace seam {
+
+class Law;
 
 /// Volume, centre and second moments about the centre of a body, from its mesh.
 struct Moments {

@@ -10,6 +10,7 @@
 ///     }
 
 #include "seam/plugin/descriptor.hpp"
+#include "seam/plugin/fingerprint.hpp"
 #include "seam/plugin/headers.hpp"
 #include "seam/plugin/registry.hpp"
 

@@ -13,6 +13,8 @@
 #include <optional>
 #include <set>
 
+#include "seam/plugin/descriptor.hpp"
+
 namespace seam {
 
 namespace {

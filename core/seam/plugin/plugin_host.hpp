@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "seam/base/diagnostics.hpp"
-#include "seam/plugin/descriptor.hpp"
+#include "seam/plugin/plugin_info.hpp"
 #include "seam/plugin/registry.hpp"
 
 namespace seam {

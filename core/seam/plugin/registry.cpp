@@ -9,6 +9,13 @@
 
 namespace seam {
 
+Registry::Registry() = default;
+Registry::Registry(const Registry&) = default;
+Registry::Registry(Registry&&) noexcept = default;
+Registry& Registry::operator=(const Registry&) = default;
+Registry& Registry::operator=(Registry&&) noexcept = default;
+Registry::~Registry() = default;
+
 const Registry::Entry* Registry::find(const std::string& kind, const std::string& name) const {
   const auto it = std::find_if(entries_.begin(), entries_.end(),
                                [&](const Entry& e) { return e.kind == kind && e.name == name; });

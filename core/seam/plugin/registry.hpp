@@ -29,6 +29,12 @@ struct Published {
 /// such as "hyperelastic"). Each entry carries the schema of its parameters and the plugin it came from.
 class Registry {
  public:
+  Registry();
+  Registry(const Registry&);
+  Registry(Registry&&) noexcept;
+  Registry& operator=(const Registry&);
+  Registry& operator=(Registry&&) noexcept;
+  ~Registry();
   struct Entry {
     std::string kind;
     std::string name;

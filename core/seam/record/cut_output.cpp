@@ -7,6 +7,7 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {

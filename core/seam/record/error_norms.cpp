@@ -10,6 +10,7 @@
 
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/evaluator.hpp"
+#include "seam/field/field.hpp"
 #include "seam/record/unknown_quantity.hpp"
 #include "seam/term/tensor.hpp"
 

@@ -8,8 +8,10 @@
 #include <limits>
 #include <numeric>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/assembly/evaluator.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/field/field.hpp"
 #include "seam/record/unknown_quantity.hpp"
 
 namespace seam {

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/assembly/element.hpp"
+#include "seam/assembly/evaluator.hpp"
 #include "seam/base/all_or_none.hpp"
+#include "seam/field/field.hpp"
 #include "seam/output/atomic_file.hpp"
 
 namespace seam {

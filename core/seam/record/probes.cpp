@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seam/cut/field_cut.hpp"
+
 namespace seam {
 
 namespace {

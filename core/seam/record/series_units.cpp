@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "seam/assembly/element.hpp"
+#include "seam/field/field.hpp"
 #include "seam/scene/expression.hpp"
 
 namespace seam {

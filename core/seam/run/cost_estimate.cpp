@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/run/cost_estimate.hpp"
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/base/memory.hpp"
 #include "seam/linear/mumps_solver.hpp"
 

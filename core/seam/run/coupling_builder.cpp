@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "seam/assembly/element.hpp"
 #include "seam/base/error_list.hpp"
 #include "seam/base/memory.hpp"
 #include "seam/base/plugin_fault.hpp"
+#include "seam/cut/field_cut.hpp"
+#include "seam/field/field.hpp"
 #include "seam/run/scene_builder.hpp"
 
 namespace seam {

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/assembly/element.hpp"
 #include "seam/cut/overlap.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace seam {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <ctime>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/record/derived.hpp"
 #include "seam/run/scene_doubts.hpp"
@@ -158,5 +159,7 @@ void Session::finish_results() {
   once["linear.iterations.most"] = most_linear;
   once["unknowns"] = static_cast<double>(unknowns());
 }
+
+long long Session::unknowns() { return problem().assembler().matrix().global_rows; }
 
 }  // namespace seam

@@ -67,7 +67,7 @@ class Session {
   [[nodiscard]] double time_error() const { return step_->error(); }
   /// To take single steps from the last good state without a record of them.
   [[nodiscard]] TimeStep& time_step() { return *step_; }
-  [[nodiscard]] long long unknowns() { return problem().assembler().matrix().global_rows; }
+  [[nodiscard]] long long unknowns();
   /// Spent in building, in linear solves and in observing, s.
   [[nodiscard]] double setup_seconds() const { return setup_seconds_; }
   [[nodiscard]] double linear_seconds() const { return linear_seconds_; }

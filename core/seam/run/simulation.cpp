@@ -3,6 +3,7 @@
 
 #include <fmt/ranges.h>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/base/all_or_none.hpp"
 #include "seam/base/memory.hpp"
 #include "seam/run/interruption.hpp"

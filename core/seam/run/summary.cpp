@@ -7,7 +7,7 @@
 
 #include "seam/base/checksum.hpp"
 #include "seam/base/memory.hpp"
-#include "seam/plugin/fingerprint.hpp"
+#include "seam/plugin/plugin_info.hpp"
 #include "seam/run/simulation.hpp"
 
 namespace seam {
@@ -62,7 +62,7 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   if (interruption_) s["reason"] = interruption_->reason;
   s["time"] = state.time;
   s["parameters"] = scene_.parameters;
-  s["versions"] = {{"fingerprint", SEAM_FINGERPRINT}, {"trilinos", TRILINOS_VERSION_STRING}};
+  s["versions"] = {{"fingerprint", host_fingerprint()}, {"trilinos", TRILINOS_VERSION_STRING}};
   s["machine"] = machine();
   s["ranks"] = communicator_.size();
   s["unknowns"] = session_.unknowns();

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "seam/field/field.hpp"
 #include "seam/run/time_error.hpp"
 
 namespace seam {

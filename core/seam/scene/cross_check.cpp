@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <charconv>
 
+#include "seam/plugin/plugin_host.hpp"
+
 namespace seam {
 
 namespace {

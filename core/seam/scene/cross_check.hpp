@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "seam/plugin/plugin_host.hpp"
 #include "seam/plugin/registry.hpp"
 #include "seam/scene/scene.hpp"
 

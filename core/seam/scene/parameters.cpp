@@ -5,6 +5,13 @@
 
 namespace seam {
 
+Parameters::Parameters() = default;
+Parameters::Parameters(const Parameters&) = default;
+Parameters::Parameters(Parameters&&) noexcept = default;
+Parameters& Parameters::operator=(const Parameters&) = default;
+Parameters& Parameters::operator=(Parameters&&) noexcept = default;
+Parameters::~Parameters() = default;
+
 template <class T>
 const T& Parameters::get(const std::string& key) const {
   const auto it = values_.find(key);

@@ -16,6 +16,12 @@ namespace seam {
 /// with that kind: asking for another is a programming error (std::logic_error), never a user's.
 class Parameters {
  public:
+  Parameters();
+  Parameters(const Parameters&);
+  Parameters(Parameters&&) noexcept;
+  Parameters& operator=(const Parameters&);
+  Parameters& operator=(Parameters&&) noexcept;
+  ~Parameters();
   /// True when the key was given or has a default.
   [[nodiscard]] bool has(const std::string& key) const;
   /// True when the scene itself gives the key (a default does not count).

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "seam/base/policy.hpp"
+#include "seam/plugin/plugin_host.hpp"
 #include "seam/scene/cross_check.hpp"
 #include "seam/scene/overrides.hpp"
 #include "seam/scene/validate.hpp"

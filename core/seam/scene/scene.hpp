@@ -9,12 +9,13 @@
 #include <vector>
 
 #include "seam/base/diagnostics.hpp"
-#include "seam/plugin/plugin_host.hpp"
-#include "seam/plugin/registry.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/scene/schema.hpp"
 
 namespace seam {
+
+class PluginHost;
+class Registry;
 
 /// Values that replace those of the file, in this order: key path ("parameters.h", "time.step.initial",
 /// "fields.water.boundary.0.on") and the YAML text of the value ("1/32").

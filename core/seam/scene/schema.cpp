@@ -6,6 +6,13 @@
 
 namespace seam {
 
+Schema::Schema(std::string summary) : summary_(std::move(summary)) {}
+Schema::Schema(const Schema&) = default;
+Schema::Schema(Schema&&) noexcept = default;
+Schema& Schema::operator=(const Schema&) = default;
+Schema& Schema::operator=(Schema&&) noexcept = default;
+Schema::~Schema() = default;
+
 Parameter& Schema::add(const std::string& name, ValueKind kind, const std::string& help) {
   if (find(name)) throw std::logic_error("schema declares the key '" + name + "' twice");
   Parameter& parameter = parameters_.emplace_back();

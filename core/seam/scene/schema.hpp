@@ -116,7 +116,12 @@ struct Parameter {
 /// pages all come from here.
 class Schema {
  public:
-  explicit Schema(std::string summary = "") : summary_(std::move(summary)) {}
+  explicit Schema(std::string summary = "");
+  Schema(const Schema&);
+  Schema(Schema&&) noexcept;
+  Schema& operator=(const Schema&);
+  Schema& operator=(Schema&&) noexcept;
+  ~Schema();
 
   // The returned reference is valid until the next key is added.
   Parameter& boolean(const std::string& name, const std::string& help);

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "seam/cut/field_cut.hpp"
 #include "seam/solve/problem.hpp"
 
 namespace seam {

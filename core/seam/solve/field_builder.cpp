@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "seam/base/plugin_fault.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/term/term_name.hpp"
 
 namespace seam {

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "seam/assembly/domains.hpp"
 #include "seam/solve/problem.hpp"
 
 namespace seam {

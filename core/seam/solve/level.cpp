@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/solve/connected_nodes.hpp"
 

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/assembly/steady_part.hpp"
 #include "seam/base/stopwatch.hpp"
+#include "seam/field/field.hpp"
 
 namespace seam {
 namespace {

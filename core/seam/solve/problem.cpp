@@ -9,10 +9,17 @@
 #include <set>
 #include <utility>
 
+#include "seam/assembly/assembler.hpp"
+#include "seam/assembly/evaluator.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
+#include "seam/cut/cut_mesh.hpp"
+#include "seam/cut/field_cut.hpp"
+#include "seam/field/field.hpp"
+#include "seam/field/part_layout.hpp"
 #include "seam/interface/begins_steps.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/solve/field_builder.hpp"
 #include "seam/solve/level.hpp"
 
@@ -118,6 +125,14 @@ class FieldsForConstraint final : public ConstraintSetup {
 };
 
 }  // namespace
+
+FieldEntry::FieldEntry() = default;
+FieldEntry::~FieldEntry() = default;
+FieldEntry::FieldEntry(FieldEntry&&) noexcept = default;
+FieldEntry& FieldEntry::operator=(FieldEntry&&) noexcept = default;
+
+Problem::Problem(const Communicator& communicator) : communicator_(communicator) {}
+Problem::~Problem() = default;
 
 Field& Problem::add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
                           std::unique_ptr<Physics> physics, const Location& where) {

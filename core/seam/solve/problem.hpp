@@ -9,14 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "seam/assembly/assembler.hpp"
-#include "seam/assembly/domains.hpp"
+#include "seam/assembly/bound_term.hpp"
 #include "seam/constraint/constraint.hpp"
-#include "seam/cut/field_cut.hpp"
 #include "seam/interface/interface.hpp"
 #include "seam/physics/physics.hpp"
+#include "seam/state/state_store.hpp"
 
 namespace seam {
+
+class Assembler;
+class CutMesh;
+class Field;
+class FieldCut;
+class Mesh;
 
 /// A quantity of a field, for pictures, probes or time series.
 struct FieldQuantity {
@@ -47,6 +52,10 @@ struct LevelCondition {
 
 /// A field with its physics.
 struct FieldEntry {
+  FieldEntry();
+  ~FieldEntry();
+  FieldEntry(FieldEntry&&) noexcept;
+  FieldEntry& operator=(FieldEntry&&) noexcept;
   std::string name;
   Location where = {};                ///< in the scene
   std::shared_ptr<const Mesh> shape;  ///< the mesh the scene gives it
@@ -93,7 +102,10 @@ enum class SpaceChange {
 /// All fields and terms of a scene as one nonlinear system, and the states they are in.
 class Problem {
  public:
-  explicit Problem(const Communicator& communicator) : communicator_(communicator) {}
+  explicit Problem(const Communicator& communicator);
+  ~Problem();
+  Problem(const Problem&) = delete;
+  Problem& operator=(const Problem&) = delete;
 
   /// Adds a field and lets its physics declare its terms. Collective.
   /// @throws Error when two conditions claim the same unknown on the same boundary

@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "seam/assembly/assembler.hpp"
 #include "seam/base/disjoint_sets.hpp"
 #include "seam/solve/connected_nodes.hpp"
 #include "seam/solve/newton.hpp"

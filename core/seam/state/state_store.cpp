@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/mesh/mesh.hpp"
 
 namespace seam {
 

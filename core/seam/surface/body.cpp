@@ -11,6 +11,8 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/base/policy.hpp"
+#include "seam/mesh/mesh.hpp"
+#include "seam/plugin/registry.hpp"
 
 namespace seam {
 namespace {

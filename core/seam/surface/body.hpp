@@ -4,13 +4,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
-#include "seam/mesh/mesh.hpp"
 #include "seam/mesh/mesh_data.hpp"
-#include "seam/plugin/registry.hpp"
 #include "seam/surface/surface.hpp"
 
 namespace seam {
+
+class Mesh;
+class Registry;
 
 /// Finds a mesh of the scene by its name.
 using MeshFinder = std::function<std::shared_ptr<const MeshData>(const std::string& name)>;

@@ -9,6 +9,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "seam/field/field.hpp"
+
 namespace seam {
 
 void declare_backing(Schema& schema, const std::string& body) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "seam/assembly/remote_cells.hpp"
+#include "seam/field/field.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/scene/schema.hpp"
 #include "seam/surface/body.hpp"

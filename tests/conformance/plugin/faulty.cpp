@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "seam/constraint/constraint.hpp"
+#include "seam/field/field.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/plugin.hpp"
 #include "seam/term/kernel_term.hpp"

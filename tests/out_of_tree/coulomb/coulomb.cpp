@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
+#include "seam/field/field.hpp"
 #include "seam/interface/interface.hpp"
 #include "seam/physics/stress_law.hpp"
 #include "seam/plugin/plugin.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "seam/field/field.hpp"
 #include "seam/interface/interface.hpp"
 #include "seam/plugin/plugin.hpp"
 #include "seam/term/kernel_term.hpp"

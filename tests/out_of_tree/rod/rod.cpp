@@ -6,6 +6,7 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/constraint/constraint.hpp"
+#include "seam/field/field.hpp"
 #include "seam/plugin/plugin.hpp"
 
 namespace {

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seam/plugin/descriptor.hpp"
+#include "seam/plugin/plugin_info.hpp"
 
 #include <elf.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/plugin/descriptor.hpp"
+#include "seam/plugin/fingerprint.hpp"
 #include "seam/plugin/headers.hpp"
 
 namespace seam {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seam/interface/cell_constant.hpp"
+#include "seam/interface/cell_constants.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "seam/assembly/element.hpp"
+#include "seam/assembly/remote_cells.hpp"
+#include "seam/field/field.hpp"
+#include "seam/interface/cell_constant.hpp"
+#include "seam/mesh/lagrange.hpp"
 #include "seam/mesh/quadrature.hpp"
 #include "seam/term/tensor.hpp"
 
