@@ -82,7 +82,8 @@ seam_ninja() {
   shift
   local log=$folder/build.log
   if [ -t 1 ]; then
-    ninja -C "$folder" -j "$seam_jobs" "$@"
+    # What failed fails once more, for the log.
+    ninja -C "$folder" -j "$seam_jobs" "$@" || { ninja -C "$folder" -j "$seam_jobs" "$@" >"$log" 2>&1; return 1; }
     return
   fi
   if ninja -C "$folder" -j "$seam_jobs" "$@" >"$log" 2>&1; then

@@ -17,7 +17,8 @@
 # format    clang-format
 # tidy      clang-tidy on the files that changed
 #
-# The last line counts test cases, scenes and the stages that hold a single one. The exit code is 0 only if none failed.
+# What failed is said once more at the end, in at most 100 lines, each with the command which runs it alone (after
+# `source tools/setup.sh`). The last line counts test cases, scenes and the stages that hold a single one. The exit code is 0 only if none failed.
 set -uo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 cd "$seam_root" || exit 1
@@ -38,7 +39,7 @@ count_one() { if [ "$1" = 0 ]; then count 1 0; else count 0 1; fi; }
 
 # run_ctest FOLDER ARGUMENTS: runs ctest and counts its tests, those made with Catch2 by their cases.
 run_ctest() {
-  local folder=$1 log=$1/ctest.log
+  local folder=$1 log=$1/$stage.log
   shift
   # The limit ends what hangs, on a slow machine too: the longest test takes 10 minutes on a quick one.
   ctest --test-dir "$folder" -V -j "$seam_jobs" --timeout 3600 "$@" >"$log" 2>&1
@@ -120,17 +121,18 @@ stage_metamorphic() {
 
 stage_endurance() {
   local failed_before=$failed
-  tests/endurance/valgrind.py "$seam_build/bin/seam"
-  count_one $?
-  tests/endurance/moving_cut.py "$seam_build/bin/seam"
-  count_one $?
+  local log=$seam_build/endurance.log
+  tests/endurance/valgrind.py "$seam_build/bin/seam" 2>&1 | tee "$log"
+  count_one "${PIPESTATUS[0]}"
+  tests/endurance/moving_cut.py "$seam_build/bin/seam" 2>&1 | tee -a "$log"
+  count_one "${PIPESTATUS[0]}"
   [ "$failed" = "$failed_before" ]
 }
 
 # verify_scenes SCENE...: runs scenes and compares them with their checks, each in a process and a folder of its own, as
 # many at once as there are cores.
 verify_scenes() {
-  local folder=$seam_build/scenes scene log failed_before=$failed
+  local folder=$seam_build/$stage scene log failed_before=$failed
   rm -rf "$folder"
   # After a process that a signal has ended xargs would start no more: hence `true`.
   # shellcheck disable=SC2016  # for the shell of each process
@@ -185,12 +187,24 @@ stage_format() {
 
 stage_tidy() {
   seam_configure "$seam_build" || { count 0 1; return 1; }
-  tools/tidy.sh "$seam_build"
-  count_one $?
+  tools/tidy.sh "$seam_build" 2>&1 | tee "$seam_build/tidy.log"
+  count_one "${PIPESTATUS[0]}"
+}
+
+# What is said at the end comes from logs: those of an earlier run would tell of that.
+forget_logs() {
+  case $1 in
+    sanitize | fuzz) rm -f "$seam_build-$1"/{build,"$1"}.log ;;
+    build) rm -f "$seam_build/build.log" ;;
+    nightly) rm -rf "$seam_build"/{nightly,metamorphic.log,endurance.log} ;;
+    scenes) rm -rf "$seam_build/scenes" ;;
+    *) rm -f "$seam_build/$1.log" ;;
+  esac
 }
 
 run_stage() {
   local start=$SECONDS code
+  forget_logs "$1"
   echo "== $1"
   "stage_$1"
   code=$?
@@ -218,6 +232,9 @@ for stage in "${stages[@]}"; do
   # Nothing can be said about what does not compile.
   run_stage "$stage" || { [ "$stage" = build ] && break; }
 done
-[ ${#failed_stages[@]} = 0 ] || echo "failed: ${failed_stages[*]}"
+if [ ${#failed_stages[@]} != 0 ]; then
+  tools/what_failed.py "$seam_build" "${failed_stages[@]}"
+  echo "failed: ${failed_stages[*]}"
+fi
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]

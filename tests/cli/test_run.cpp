@@ -105,7 +105,7 @@ TEST_CASE("the scene hash tells overrides apart") {
 TEST_CASE("an error of all ranks is printed once, one of a single rank stops all", "[mpi]") {
   const Folder folder;
   const std::string scene = folder.file("pushed.yaml", pushed);
-  const std::string two = "timeout 60 mpirun --oversubscribe -np 2";
+  const std::string two = "timeout 1000 mpirun --oversubscribe -np 2";
   const Result all = seam(run(folder, scene, "out"), two);
   CHECK(all.code == 1);
   const std::string message = "the step from t = 0.5 fails";
@@ -115,7 +115,7 @@ TEST_CASE("an error of all ranks is printed once, one of a single rank stops all
 
   // The second rank is given another scene, which it cannot read.
   const Result one = seam(run(folder, scene, "out") + " : -np 1 " SEAM_COMMAND " run /nowhere/scene.yaml",
-                          "timeout 60 mpirun --oversubscribe -np 1");
+                          "timeout 1000 mpirun --oversubscribe -np 1");
   CHECK(one.code == 2);
   CHECK_THAT(one.output, Contains("there is no such file") && Contains("on rank 1 of 2 only"));
 }

@@ -30,7 +30,7 @@ class Run:
 ENVIRONMENT = os.environ | {"OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_btl": "self", "OPENBLAS_NUM_THREADS": "1"}
 
 
-def run(seam, tree, folder, reuse=False, limit=1800):
+def run(seam, tree, folder, reuse=False, limit=3600):
     """Writes a scene into a folder of its own, runs it there and reads what it leaves.
 
     reuse: what a run of the same scene left there is read instead

@@ -24,7 +24,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 def run(command, folder):
     """@returns exit code and all that was printed."""
-    done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False)
+    done = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=1000, check=False)
     return done.returncode, done.stdout.decode(errors="replace")
 
 

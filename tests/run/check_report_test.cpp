@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What `seam check` says of a scene: units of what will be recorded, costs, all of it as JSON.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/run_command.hpp"
@@ -41,17 +43,24 @@ TEST_CASE("check tells the units of what will be recorded") {
 
 TEST_CASE("check estimates memory and the seconds of a step") {
   const std::string scene = config("fluid/vortices");
-  const nlohmann::json coarse = check(scene), fine = check(scene + " --set parameters.n=64");
+  const std::string more = " --set parameters.n=64";
+  const nlohmann::json fine = check(scene + more);
   // Of a run in this build: within what a busy machine does to it.
   const Folder folder;
-  REQUIRE(seam("run " + scene + " --quiet --no-picture --set parameters.n=64 --folder " +
-               (folder.path / "r").string())
+  REQUIRE(seam("run " + scene + " --quiet --no-picture" + more + " --folder " + (folder.path / "r").string())
               .code == 0);
   const auto run = nlohmann::json::parse(folder.read("r/summary.json"));
   const double bytes = run["peak_memory_bytes"];
   CHECK(fine["memory_bytes"].get<double>() == Approx(bytes).epsilon(0.3));
-  const double growth = fine["seconds_per_step"].get<double>() / coarse["seconds_per_step"].get<double>();
-  const double unknowns = fine["unknowns"].get<double>() / coarse["unknowns"].get<double>();
+  // Seconds of the least busy of some moments.
+  const auto least = [](const std::string& arguments) {
+    double seconds = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 5; ++i)
+      seconds = std::min(seconds, check(arguments)["seconds_per_step"].get<double>());
+    return seconds;
+  };
+  const double growth = least(scene + more) / least(scene);
+  const double unknowns = fine["unknowns"].get<double>() / check(scene)["unknowns"].get<double>();
   CHECK(growth > 0.3 * unknowns);
   CHECK(growth < 10 * unknowns);
   CHECK(fine["includes_linear_solves"] == true);

@@ -49,6 +49,16 @@ class Process {
     ended_ = true;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
+  /// Until something is so, however long that takes here; fails when the process ends before.
+  void wait_for(const std::function<bool()>& condition) const {
+    while (!condition()) {
+      siginfo_t end{};
+      REQUIRE(waitid(P_PID, static_cast<id_t>(id_), &end, WEXITED | WNOHANG | WNOWAIT) == 0);
+      INFO(output());
+      REQUIRE((end.si_pid == 0 || condition()));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
   [[nodiscard]] std::string output() const {
     std::ifstream in(log_);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -59,16 +69,6 @@ class Process {
   bool ended_ = false;
   std::string log_;
 };
-
-/// Waits until something is so; fails after a minute.
-inline void wait_for(const std::function<bool()>& condition) {
-  using std::chrono::steady_clock;
-  const auto end = steady_clock::now() + std::chrono::minutes(1);
-  while (!condition()) {
-    REQUIRE(steady_clock::now() < end);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
 
 inline void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 

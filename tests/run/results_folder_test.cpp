@@ -295,10 +295,11 @@ TEST_CASE("a record of a run that is JSON but none of a run is refused") {
 
 TEST_CASE("a folder in which a run is at work is refused; one that was killed holds nothing up") {
   const Folder folder;
-  const std::string scene = folder.file("slow.yaml", pulled_by("{type: slow, seconds: 60, load: 1}", "slow"));
+  const std::string scene =
+      folder.file("slow.yaml", pulled_by("{type: slow, seconds: 1000, load: 1}", "slow"));
   Process process("run " + scene + " --folder " + (folder.path / "r").string(), "",
                   (folder.path / "log").string());
-  wait_for([&] { return fs::exists(folder.path / "r/events.jsonl"); });
+  process.wait_for([&] { return fs::exists(folder.path / "r/events.jsonl"); });
   for (const std::string how : {"", "--resume", "--overwrite"}) {
     const Result refused = run(folder, "r", how, scene);
     check_refused(refused, "another run is at work in this folder");

@@ -4,12 +4,15 @@
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "seam/plugin/plugin.hpp"
+#include "seam/run/interruption.hpp"
 #include "seam/scene/function.hpp"
 
 namespace {
@@ -17,20 +20,39 @@ namespace {
 using seam::Function;
 using seam::Parameters;
 
-/// `slow.load` is a constant that takes some seconds to find out, once for each time.
+/// `slow.load` is a constant that takes some seconds to find out, once for each time, or as long as a test
+/// wants to: then nothing depends on how fast the machine is.
 class Slow final : public Function {
  public:
-  explicit Slow(const Parameters& p) : seconds_(p.number("seconds")), load_(p.number("load")) {}
+  explicit Slow(const Parameters& p)
+      : seconds_(p.number("seconds")),
+        load_(p.number("load")),
+        from_(p.number("from")),
+        begun_(p.has("begun") ? p.text("begun") : ""),
+        until_(p.has("until") ? p.text("until") : "") {}
   [[nodiscard]] const std::vector<Member>& members() const override { return members_; }
   void evaluate(int /*part*/, const double* /*x*/, double t, double* value) const override {
-    if (t != last_ && t > 0) std::this_thread::sleep_for(std::chrono::duration<double>(seconds_));
+    if (t != last_ && t > from_) wait();
     last_ = t;
     value[0] = load_;
   }
 
  private:
+  void wait() const {
+    using std::chrono::steady_clock;
+    if (!begun_.empty()) std::ofstream{begun_};
+    const auto end = steady_clock::now() + std::chrono::duration<double>(seconds_);
+    if (until_.empty()) std::this_thread::sleep_until(end);
+    while (!until_.empty() && !std::filesystem::exists(until_) && steady_clock::now() < end) {
+      // Other ranks wait for this file, too.
+      if (seam::SignalWatch::caught() != 0) std::ofstream{until_};
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+
   std::vector<Member> members_{{"load", 1}};
-  double seconds_, load_;
+  double seconds_, load_, from_;
+  std::string begun_, until_;
   mutable double last_ = 0;
 };
 
@@ -61,6 +83,9 @@ SEAM_PLUGIN(registry) {
   seam::Schema slow("A load that takes its time.");
   slow.number("seconds", "taken once for each time").at_least(0);
   slow.number("load", "its value");
+  slow.number("from", "the time after which it is taken").otherwise("0");
+  slow.text("begun", "a file that is made when it begins to be taken").optional();
+  slow.text("until", "a file that ends it; a signal that is caught makes it").optional();
   registry.add<Function>(
       "function", "slow", slow,
       [](const Parameters& p, const seam::Registry& /*registry*/) { return std::make_unique<Slow>(p); });
