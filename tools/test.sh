@@ -2,8 +2,11 @@
 # Passes the tests; sets everything up first where that is needed.
 #   tools/test.sh                 build, fast, scenes, install
 #   tools/test.sh build fast      only these stages
+#   tools/test.sh changed         before a commit: builds, and passes what the changed files can affect
 #   tools/test.sh all             everything, as continuous integration does
 #
+# changed   what differs from HEAD, or where nothing does, the last commit; SEAM_CHANGED_SINCE=REV compares with another one.
+#           The tests, scenes and formats which these files can affect, most likely to fail first; not part of `all`
 # build     compile, warnings are errors
 # fast      unit, property and command line tests
 # scenes    every scene of configs/ against its own checks, but for those of the nightly tier
@@ -76,6 +79,13 @@ count_ctest() {
 stage_build() {
   seam_configure "$seam_build" && seam_ninja "$seam_build"
   count_one $?
+}
+
+stage_changed() {
+  seam_configure "$seam_build" && seam_ninja "$seam_build" || { count 0 1; return 1; }
+  # Writes what is to be run as tests of CTest, in this order.
+  tools/changed.py "$seam_build" || { count 0 1; return 1; }
+  run_ctest "$seam_build/changed"
 }
 
 stage_fast() { run_ctest "$seam_build" --label-exclude 'slow|install'; }
@@ -195,7 +205,7 @@ stage_tidy() {
 forget_logs() {
   case $1 in
     sanitize | fuzz) rm -f "$seam_build-$1"/{build,"$1"}.log ;;
-    build) rm -f "$seam_build/build.log" ;;
+    build | changed) rm -rf "$seam_build"/build.log "$seam_build/changed" ;;
     nightly) rm -rf "$seam_build"/{nightly,metamorphic.log,endurance.log} ;;
     scenes) rm -rf "$seam_build/scenes" ;;
     *) rm -f "$seam_build/$1.log" ;;
@@ -217,8 +227,8 @@ stages=("$@")
 [ $# = 0 ] && stages=(build fast scenes install)
 [ "${stages[*]}" = all ] && stages=("${all_stages[@]}")
 for stage in "${stages[@]}"; do
-  if [[ " ${all_stages[*]} nightly metamorphic endurance " != *" $stage "* ]]; then
-    echo "There is no stage '$stage'; there are: ${all_stages[*]}, nightly, metamorphic, endurance, and 'all'" >&2
+  if [[ " ${all_stages[*]} changed nightly metamorphic endurance " != *" $stage "* ]]; then
+    echo "There is no stage '$stage'; there are: ${all_stages[*]}, changed, nightly, metamorphic, endurance, and 'all'" >&2
     exit 2
   fi
 done
