@@ -8,8 +8,8 @@ source "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
 
 seam_install_packages
 seam_configure "$seam_build"
-# The tests are not needed here.
-seam_ninja "$seam_build" tools/all plugins/all >&2
+# Neither the tests nor the benchmarks are needed here.
+seam_ninja "$seam_build" seam seam-picture plugins/all >&2
 
 if [ $# = 0 ]; then
   set -- configs/solid/cook.yaml
