@@ -60,6 +60,8 @@ class Measured:
     """Seconds and headers of each object of a folder."""
 
     def __init__(self, folder):
+        if not (folder / "wall_seconds").exists():
+            sys.exit(f"{folder} was not built to its end by this tool: remove it, and build it without --again")
         self.seconds = {}
         for line in (folder / LOG).read_text().splitlines():
             entry = json.loads(line)
@@ -92,6 +94,7 @@ def group_of(path):
 def table(folders):
     all_measured = [Measured(folder) for folder in folders]
     rows = [["core seconds", *(folder.name for folder in folders)]]
+    rows.append(["seconds on the clock", *((folder / "wall_seconds").read_text() for folder in folders)])
     rows.append(["clean build", *(f"{sum(m.seconds.values()):.0f}" for m in all_measured)])
     for name in ("core", "plugins", "tools", "tests", "plugins of tests", "rest"):
         rows.append([f"of it {name}", *(f"{m.group(name):.0f}" for m in all_measured)])

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The conformance kit finds what is wrong: a check that cannot fail proves nothing.
-#include <sys/wait.h>
-
-#include <array>
 #include <catch2/catch.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <string>
+
+#include "../cli/run_command.hpp"
 
 using Catch::Matchers::Contains;
 
@@ -29,15 +27,8 @@ struct Result {
 };
 
 Result run_kit(const std::string& arguments) {
-  Result result;
-  FILE* pipe = popen((SEAM_COMMAND " plugin test " + arguments + " 2>&1").c_str(), "r");
-  REQUIRE(pipe != nullptr);
-  std::array<char, 4096> buffer{};
-  while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), pipe))
-    result.output.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
-  return result;
+  const auto [code, output] = seam_cli_test::seam("plugin test " + arguments);
+  return {code, output};
 }
 
 /// Runs the kit on the wrong plugin, with one of its materials in the scene.
