@@ -58,3 +58,10 @@ cmake --install "$work/example-build" --prefix "$work/seam" >/dev/null
 cd "$work"
 env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" verify "$work"/example/conformance/*.yaml --quiet
 env -u SEAM_PLUGIN_PATH "$work/seam/bin/seam" plugin test "$work"/seam/lib*/seam/plugins/libseam_example.so --ranks 1
+
+# Without the library that iterative solvers load, these say so, and direct ones run as ever.
+rm "$work"/seam/lib*/libseam_preconditioners.so
+krylov="$work/seam/bin/seam run $source/configs/solid/cook.yaml --no-picture --quiet --set output.fields=false"
+if $krylov --folder "$work/krylov" --set solver.linear=krylov >"$work/log" 2>&1; then fail "preconditioners from elsewhere"; fi
+grep -q "the library of preconditioners cannot be loaded" "$work/log" || fail "what is missing was not told: $(cat "$work/log")"
+$krylov --folder "$work/direct"

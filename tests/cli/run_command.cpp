@@ -12,7 +12,8 @@
 namespace seam_cli_test {
 
 const std::string without_own_mpi =
-    "env $(env | sed -nE 's/^((OMPI|PMIX|OPAL)_[A-Za-z0-9_]*)=.*/-u \\1/p' | grep -v ALLOW) "
+    "env $(env | sed -nE 's/^((OMPI|PMIX|OPAL)_[A-Za-z0-9_]*)=.*/-u \\1/p' | "
+    "grep -vE '_(ALLOW_RUN.*|MCA_(pml|mpi_yield_when_idle|btl_vader_single_copy_mechanism))$') "
     "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 ";
 
 Result seam(const std::string& arguments, const std::string& before) {

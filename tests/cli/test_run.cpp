@@ -50,6 +50,13 @@ std::string line(const std::string& text, std::size_t number) {
 
 }  // namespace
 
+TEST_CASE("what only iterative solvers need is not loaded at the start") {
+  // The dynamic linker lists what it would load.
+  const std::string libraries = seam("", "LD_TRACE_LOADED_OBJECTS=1").output;
+  CHECK_THAT(libraries, Contains("libseam_core") && Contains("libdmumps"));
+  CHECK_THAT(libraries, !Contains("muelu") && !Contains("ifpack2"));
+}
+
 TEST_CASE("a run that fails leaves its reason and the last good state") {
   const Folder folder;
   const std::string scene = folder.file("pushed.yaml", pushed);

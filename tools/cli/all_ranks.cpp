@@ -49,13 +49,16 @@ void use_one_blas_thread() {
   if (const auto set = reinterpret_cast<SetThreads>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) set(1);
 }
 
-/// MPI_Init. Where no launcher has started us, Open MPI would start a daemon, which takes 0.1 s, and make
-/// folders below the one for temporary files that processes which begin and end at the same time remove for
-/// each other: one of some thousand starts failed. A process alone needs neither. Children are not to know.
+/// MPI_Init. Where no launcher has started us, Open MPI would start a daemon, which takes 0.1 s, try every
+/// kind of network, 0.2 s, and make folders below the one for temporary files that processes which begin and
+/// end at the same time remove for each other: one of some thousand starts failed. A process alone needs none
+/// of these. Children are not to know.
 void start_mpi() {
   constexpr std::array launchers{"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMIX_NAMESPACE", "PMI_RANK"};
-  constexpr std::array<std::array<const char*, 2>, 2> alone{
-      {{"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_orte_create_session_dirs", "false"}}};
+  constexpr std::array<std::array<const char*, 2>, 4> alone{{{"OMPI_MCA_ess_singleton_isolated", "1"},
+                                                             {"OMPI_MCA_orte_create_session_dirs", "false"},
+                                                             {"OMPI_MCA_pml", "ob1"},
+                                                             {"OMPI_MCA_btl", "self"}}};
   const bool launched =
       std::any_of(launchers.begin(), launchers.end(), [](const char* name) { return std::getenv(name); });
   std::vector<const char*> mine;

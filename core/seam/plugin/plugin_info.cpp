@@ -148,11 +148,11 @@ PluginInfo read_descriptor(const std::filesystem::path& file) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) throw Error("not a regular file");
   constexpr std::uintmax_t largest = std::uintmax_t{1} << 30;
-  if (std::filesystem::file_size(file, code) > largest || code)
-    throw Error("larger than a shared library can be (1 GiB)");
+  const std::uintmax_t size = std::filesystem::file_size(file, code);
+  if (code || size > largest) throw Error("larger than a shared library can be (1 GiB)");
   std::ifstream stream(file, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream) throw Error("cannot be read");
+  std::string bytes(size, '\0');
+  if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) throw Error("cannot be read");
   return parse_descriptor(bytes);
 }
 

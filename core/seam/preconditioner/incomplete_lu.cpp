@@ -3,7 +3,7 @@
 #include <Ifpack2_RILUK.hpp>
 #include <algorithm>
 
-#include "seam/linear/preconditioner.hpp"
+#include "seam/preconditioner/library.hpp"
 
 namespace seam {
 namespace {
@@ -60,8 +60,8 @@ class IncompleteLu final : public TpetraOperator {
 
 }  // namespace
 
-Teuchos::RCP<TpetraOperator> make_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& own,
-                                                const Teuchos::RCP<const TpetraMap>& rows, int fill) {
+Teuchos::RCP<TpetraOperator> build_incomplete_lu(const Teuchos::RCP<TpetraMatrix>& own,
+                                                 const Teuchos::RCP<const TpetraMap>& rows, int fill) {
   return Teuchos::rcp(new IncompleteLu(own, rows, fill));
 }
 

@@ -2,7 +2,7 @@
 // Compiled as C++17: Teuchos' validators, which MueLu includes, are not valid C++20.
 #include <MueLu_CreateTpetraPreconditioner.hpp>
 
-#include "seam/linear/preconditioner.hpp"
+#include "seam/preconditioner/library.hpp"
 
 namespace seam {
 namespace {
@@ -16,15 +16,12 @@ Teuchos::RCP<TpetraVector> to_tpetra(const Teuchos::RCP<const TpetraMap>& map,
   return result;
 }
 
-Teuchos::RCP<TpetraVector> coordinates_of(const EquationUnknown& unknown, int dimension,
+Teuchos::RCP<TpetraVector> coordinates_of(const GridOfUnknown& unknown,
                                           const Teuchos::RCP<const TpetraMap>& rows) {
-  const std::size_t nodes = unknown.rows.size() / static_cast<std::size_t>(unknown.components);
+  const std::size_t nodes = unknown.coordinates.front().size();
   const auto map = Teuchos::rcp(
       new TpetraMap(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(), nodes, 0, rows->getComm()));
-  std::vector<std::vector<double>> along(dimension, std::vector<double>(nodes));
-  for (int d = 0; d < dimension; ++d)
-    for (std::size_t n = 0; n < nodes; ++n) along[d][n] = unknown.coordinates[n * dimension + d];
-  return to_tpetra(map, along);
+  return to_tpetra(map, unknown.coordinates);
 }
 
 /// Whether smoothers for symmetric matrices serve: of what this and other ranks own, entries and those
@@ -50,8 +47,8 @@ bool is_nearly_symmetric(const TpetraMatrix& matrix) {
 
 }  // namespace
 
-Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix,
-                                            const EquationUnknown& unknown, int dimension) {
+Teuchos::RCP<TpetraOperator> build_multigrid(const Teuchos::RCP<TpetraMatrix>& matrix,
+                                             const GridOfUnknown& unknown) {
   Teuchos::ParameterList parameters;
   parameters.set("verbosity", "none");
   parameters.set("multigrid algorithm", "sa");
@@ -82,8 +79,8 @@ Teuchos::RCP<TpetraOperator> make_multigrid(const Teuchos::RCP<TpetraMatrix>& ma
     parameters.sublist("repartition: params").set("algorithm", "multijagged");
   }
   auto& user = parameters.sublist("user data");
-  user.set("Coordinates", coordinates_of(unknown, dimension, matrix->getRowMap()));
-  user.set("Nullspace", to_tpetra(matrix->getRowMap(), near_nullspace(unknown, dimension)));
+  user.set("Coordinates", coordinates_of(unknown, matrix->getRowMap()));
+  user.set("Nullspace", to_tpetra(matrix->getRowMap(), unknown.near_nullspace));
   const Teuchos::RCP<TpetraOperator> as_operator = matrix;
   return MueLu::CreateTpetraPreconditioner<double, int, long long>(as_operator, parameters);
 }
