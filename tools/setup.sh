@@ -11,6 +11,8 @@ seam_jobs=${SEAM_JOBS:-$(nproc)}
 
 # What the compiler cache holds of one checkout serves all others.
 export CCACHE_BASEDIR=$seam_root CCACHE_NOHASHDIR=1
+# It may keep what was compiled with precompiled headers.
+export CCACHE_SLOPPINESS=pch_defines,time_macros
 # One thread per process: BLAS threads only fight over the cores.
 export OPENBLAS_NUM_THREADS=1
 if [ "$(id -u)" = 0 ]; then

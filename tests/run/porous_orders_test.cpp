@@ -15,9 +15,9 @@ using Errors = std::map<std::string, double>;
 
 Errors errors(const std::string& scene, const std::string& overrides) {
   const Folder folder;
-  const Result run =
-      seam("run " SEAM_SOURCE_DIR "/configs/poro/" + scene +
-           ".yaml --quiet --no-picture --set checks=[] --folder " + folder.path.string() + overrides);
+  const Result run = seam("run " SEAM_SOURCE_DIR "/configs/poro/" + scene +
+                          ".yaml --quiet --no-picture --set output.fields=false --set checks=[] --folder " +
+                          folder.path.string() + overrides);
   INFO(run.output);
   REQUIRE(run.code == 0);
   return nlohmann::json::parse(folder.read("summary.json")).at("results").get<Errors>();

@@ -44,10 +44,10 @@ output:
   }
 }
 
-TEST_CASE("so does a ball", "[study]") { ShippedRun("fsi/turning_ball"); }
+TEST_CASE("so does a ball", "[study]") { ShippedRun("fsi/turning_ball", "--set parameters.n=6"); }
 
 TEST_CASE("a disc between walls takes Faxen's force", "[study]") {
-  const ShippedRun shipped("fsi/towed_disc");
+  const ShippedRun shipped("fsi/towed_disc", "--set parameters.n=15");
   // At order 1 the error falls with the cells.
   const auto speed = [](const std::string& options) {
     return ShippedRun("fsi/towed_disc", unchecked + "--set parameters.order=1 " + options)("speed");
@@ -94,7 +94,7 @@ TEST_CASE("a disc touches a slope alike on all numbers of ranks, and after a res
 TEST_CASE("a ball falls through a fluid onto a wall, which then carries its weight", "[study]") {
   const ShippedRun run("fsi/falling_ball", unchecked +
                                                "--set parameters.n=2 --set parameters.gap=0.01 "
-                                               "--set parameters.end=0.25 --set parameters.step=0.05");
+                                               "--set parameters.end=0.4 --set parameters.step=0.1");
   CHECK(run("balance") == Approx(1).epsilon(1e-3));
   CHECK(run("carried") == Approx(1).epsilon(1e-2));
   // Weight, surface stiffness and the volume of the cap behind the wall.
@@ -123,7 +123,7 @@ TEST_CASE("a disc of a hundredth of the fluid's density rises without instabilit
   double last = 0;
   for (const char* step : {"0.03", "0.01", "0.005"}) {
     const ShippedRun run("fsi/settling_disc", unchecked +
-                                                  "--set parameters.n=40 --set parameters.ratio=0.01 "
+                                                  "--set parameters.n=30 --set parameters.ratio=0.01 "
                                                   "--set parameters.end=0.12 --set parameters.step=" +
                                                   step);
     const std::vector<double> height = run.series("centre.y"), time = run.series("time");
