@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the direct solver solves, the iterative one solves as well, or says by name what it cannot.
+#include <nlohmann/json.hpp>
+
 #include "scene_run.hpp"
 
 using namespace seam_cli_test;
@@ -44,6 +46,22 @@ TEST_CASE("at ten thousand unknowns the iterative solver finds what the direct o
         {"block.fluid_volume", "block.volume"});
   agree("fluid/patch_vortices", "--set parameters.n=50 --set time.end=0.02",
         {"patch.kinetic_energy", "patch.dissipation", "water.kinetic_energy"});
+}
+
+TEST_CASE("multigrid knows how a slender beam turns: it takes few iterations") {
+  const Run run(
+      "title: Beam\ndimension: 2\nplugins: [solid]\n"
+      "meshes: {beam: {grid: {from: [0, 0], to: [2, 0.1], cells: [240, 12]}}}\n"
+      "fields:\n  beam:\n    type: solid\n    mesh: beam\n"
+      "    material: {type: neo_hookean, young: 1e5, poisson: 0.3}\n"
+      "    boundary: [{on: x_min, displacement: [0, 0]}, {on: x_max, traction: [0, 0.1]}]\n"
+      "time: {static: true, end: 1, step: {initial: 1}}\n"
+      "solver: {linear: {type: krylov, preconditioner: multigrid}}\noutput: {fields: false}\n");
+  INFO(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const auto results = nlohmann::json::parse(run.folder.read("out/summary.json")).at("results");
+  // 14; with translations alone 58.
+  CHECK(results.at("linear.iterations.most").get<double>() < 25);
 }
 
 TEST_CASE("each field may have an inverse of its own, and one that is not there is named") {
