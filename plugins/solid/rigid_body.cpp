@@ -6,6 +6,7 @@
 #include "kernels.hpp"
 #include "rotation.hpp"
 #include "seam/physics/conditions.hpp"
+#include "seam/scene/function.hpp"
 #include "seam/term/kernel_term.hpp"
 
 namespace seam::solid {
@@ -162,6 +163,32 @@ struct RigidKineticEnergy {
   }
 };
 
+/// What follows in space from how a body is turned at the start: the angles there are one rotation vector,
+/// since there is no order of turns that could have led to them.
+class SpaceStart final : public Function {
+ public:
+  /// @param angles given about the body's axes, 0 where they are free
+  /// @param momentum angular, kg m^2/s, in these axes
+  SpaceStart(std::vector<Expression> angles, const Vec<3, double>& momentum)
+      : angles_(std::move(angles)), momentum_(momentum) {}
+  enum Part { orientation, angular_momentum };
+  [[nodiscard]] const std::vector<Member>& members() const override { return members_; }
+  void evaluate(int part, const double* x, double t, double* value) const override {
+    Vec<3, double> turn;
+    for (int k = 0; k < 3; ++k) turn[k] = angles_[k](x, 3, t);
+    const Quaternion<double> turned_by = turned(no_rotation, turn);
+    if (part == orientation)
+      std::ranges::copy(turned_by.c, value);
+    else
+      std::ranges::copy((rotation_tensor(turned_by) * momentum_).c, value);
+  }
+
+ private:
+  std::vector<Member> members_{{"orientation", 4}, {"angular_momentum", 3}};
+  std::vector<Expression> angles_;
+  Vec<3, double> momentum_;
+};
+
 Mat<3, 3, double> inertia_of(const Moments& moments, double density, int dim) {
   Mat<3, 3, double> inertia;
   const auto& m = moments.second;
@@ -183,7 +210,7 @@ Schema RigidBody::schema() {
   s.vector_expression(
        "rotation",
        "Angle about its centre; in space three, about the body's own axes, of which rates add up "
-       "to the angular velocity; null leaves one free")
+       "to the angular velocity, at the start a rotation vector; null leaves one free")
       .unit("rad")
       .entries(-1)
       .optional();
@@ -203,7 +230,7 @@ Schema RigidBody::schema() {
   s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
   Schema initial("Motion at the start");
   initial.vector("velocity", "Velocity of the centre").unit("m/s").optional();
-  initial.vector("rotation_rate", "Angular velocity: one entry in 2D, three in 3D")
+  initial.vector("rotation_rate", "Angular velocity: one entry in 2D, three in 3D, about the body's axes")
       .unit("rad/s")
       .entries(-1)
       .optional();
@@ -260,7 +287,6 @@ void RigidBody::build(FieldSetup& setup) const {
   } else {
     setup.add_cell_term(make_term(SpaceMoments{moment}), {"rotation", "orientation"});
     setup.add_cell_term(make_term(SpaceOrientation{}), {"rotation", "orientation"});
-    setup.set_initial("orientation", 3, Expression(1.0));
   }
 
   const double density = parameters_.number("density");
@@ -280,18 +306,36 @@ void RigidBody::build(FieldSetup& setup) const {
       setup.add_cell_term(make_term(BodyLoad{parameters_.vector_expression("body_force"), mass}),
                           {"translation"});
   }
-  if (!parameters_.has("initial")) return;
-  const Parameters& initial = parameters_.object("initial");
-  for (const auto& [key, unknown] :
-       {std::pair("velocity", "translation"), std::pair("rotation_rate", "rotation")})
-    if (initial.has(key))
-      for (std::size_t d = 0; d < initial.vector(key).size(); ++d)
-        setup.set_initial_rate(unknown, static_cast<int>(d), Expression(initial.vector(key)[d]));
-  if (dim == 2 || !(density > 0) || !initial.has("rotation_rate")) return;
   Vec<3, double> spin;
-  std::copy_n(initial.vector("rotation_rate").begin(), 3, spin.c.begin());
-  const Vec<3, double> momentum = inertia * spin;
-  for (int d = 0; d < 3; ++d) setup.set_initial("angular_momentum", d, Expression(momentum[d]));
+  if (parameters_.has("initial")) {
+    const Parameters& initial = parameters_.object("initial");
+    for (const auto& [key, unknown] :
+         {std::pair("velocity", "translation"), std::pair("rotation_rate", "rotation")})
+      if (initial.has(key))
+        for (std::size_t d = 0; d < initial.vector(key).size(); ++d)
+          setup.set_initial_rate(unknown, static_cast<int>(d), Expression(initial.vector(key)[d]));
+    if (dim == 3 && initial.has("rotation_rate"))
+      std::copy_n(initial.vector("rotation_rate").begin(), 3, spin.c.begin());
+  }
+  if (dim == 3) start_in_space(setup, inertia * spin);
+}
+
+void RigidBody::start_in_space(FieldSetup& setup, const Vec<3, double>& momentum) const {
+  std::vector<Expression> angles(3);
+  for (int d = 0; d < 3; ++d) {
+    if (!parameters_.has("rotation") || !parameters_.component_given("rotation", d)) continue;
+    angles[d] = parameters_.vector_expression("rotation")[d];
+    // The orientation is counted from there on, where a static problem does not impose it at the start, too.
+    setup.set_initial("rotation", d, angles[d]);
+  }
+  const auto start = std::make_shared<SpaceStart>(std::move(angles), momentum);
+  const auto set = [&](const std::string& unknown, SpaceStart::Part part) {
+    const std::vector<Expression> values = Expression::components(start, part);
+    for (std::size_t d = 0; d < values.size(); ++d)
+      setup.set_initial(unknown, static_cast<int>(d), values[d]);
+  };
+  set("orientation", SpaceStart::orientation);
+  if (parameters_.number("density") > 0) set("angular_momentum", SpaceStart::angular_momentum);
 }
 
 void RigidBody::displace(int dimension, const double* motion, const double* arm, double* displacement) const {

@@ -3,6 +3,7 @@
 
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/registry.hpp"
+#include "seam/term/tensor.hpp"
 
 namespace seam::solid {
 
@@ -26,6 +27,8 @@ class RigidBody final : public Physics {
   /// Highest rate in the equations of motion: 2 with mass, 1 with dashpots alone, else 0.
   [[nodiscard]] int time_order() const;
   void prescribe(FieldSetup& setup, const std::string& unknown) const;
+  /// @param momentum angular, in the body's axes, kg m^2/s
+  void start_in_space(FieldSetup& setup, const Vec<3, double>& momentum) const;
   Parameters parameters_;
 };
 

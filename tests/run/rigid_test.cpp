@@ -140,6 +140,43 @@ TEST_CASE("a disc of a hundredth of the fluid's density rises without instabilit
   }
 }
 
+TEST_CASE("a rotation that is given and not 0 at the start turns the body, in space as in the plane") {
+  const auto corner = [](const std::string& space, const std::string& rotation, const std::string& time) {
+    const bool plane = space == "2";
+    const Run run("title: A block that is turned\ndimension: " + space +
+                      "\nplugins: [solid]\nmeshes: {block: {grid: " +
+                      (plane ? "{from: [0, 0], to: [2, 1], cells: [2, 1]}"
+                             : "{from: [0, 0, 0], to: [2, 1, 1], cells: [2, 1, 1]}") +
+                      "}}\nfields:\n  block: {type: rigid_body, mesh: block, density: 1, translation: [0, 0" +
+                      (plane ? "" : ", 0") + "], rotation: [" + (plane ? "" : "0, 0, ") + rotation +
+                      "]}\n  skin: {type: rigid_surface, mesh: block}\n"
+                      "constraints: [{type: rigid, field: skin, body: block}]\ntime: " +
+                      time + "\noutput: {fields: false, probes: {corner: {field: skin, at: [2, 1" +
+                      (plane ? "" : ", 1") + "], quantity: displacement}}}\n",
+                  "--quiet");
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    return std::pair(run.series("corner.x"), run.series("corner.y"));
+  };
+  const std::string dynamic = "{theta: 1, end: 1, step: {initial: 0.25}}";
+  for (const auto& [rotation, rate] : {std::pair("pi/4", 0.0), std::pair("'pi/4 + t'", 1.0)}) {
+    const auto plane = corner("2", rotation, dynamic), space = corner("3", rotation, dynamic);
+    REQUIRE(space.first.size() == 5);
+    for (std::size_t k = 0; k < 5; ++k) {
+      // The arm of the corner is (1, 1/2).
+      const double angle = std::acos(-1.0) / 4 + rate * 0.25 * static_cast<double>(k);
+      CAPTURE(rotation, k);
+      CHECK(space.first[k] == Approx(std::cos(angle) - std::sin(angle) / 2 - 1).epsilon(1e-10));
+      CHECK(space.second[k] == Approx(std::sin(angle) + std::cos(angle) / 2 - 0.5).epsilon(1e-10));
+      CHECK(plane.first[k] == Approx(space.first[k]).epsilon(1e-10));
+      CHECK(plane.second[k] == Approx(space.second[k]).epsilon(1e-10));
+    }
+  }
+  const std::string still = "{static: true, end: 1, step: {initial: 0.5}}";
+  CHECK(corner("3", "pi/4", still).second.back() ==
+        Approx(corner("2", "pi/4", still).second.back()).epsilon(1e-10));
+}
+
 TEST_CASE("a block keeps its energy and momentum over a hundred turns about its middle axis", "[study]") {
   ShippedRun("solid/spinning_block", "--set parameters.turns=100");
 }

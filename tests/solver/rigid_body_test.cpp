@@ -81,9 +81,7 @@ class Terms final : public FieldSetup {
     throw unexpected();
   }
   void fix_level(const std::string&, double, std::vector<std::string>) override { throw unexpected(); }
-  void prescribe(const std::string&, const std::string&, int, Expression, const Location&) override {
-    throw unexpected();
-  }
+  void prescribe(const std::string&, const std::string&, int, Expression, const Location&) override {}
   void give(const std::string&, int, Expression) override { throw unexpected(); }
   void add_output(const std::string&, std::shared_ptr<const Term>, std::vector<std::string>) override {
     throw unexpected();
@@ -332,17 +330,23 @@ TEST_CASE("a rigid body's inertia is that of the points that it is made of") {
 }
 
 TEST_CASE("the momentum at the start is that of the points' velocities") {
+  const double angle = GENERATE(0.0, 1.2);
   Parameters p = parameters_of({});
   Parameters initial;
   initial.set_dimension(3);
   initial.set("rotation_rate", {std::vector<double>{0.8, -0.3, 1.1}, {}, {}, true});
   p.set("initial", {std::vector<Parameters>{initial}, {}, {}, true});
+  p.set("rotation",
+        {std::vector{Expression(0.0), Expression(angle), Expression(0.0)}, {false, true, false}, {}, true});
   Terms setup;
   solid::RigidBody(p).build(setup);
-  Triple expected{};
+  Axis turn;
+  turn[1] = angle;
+  const auto tensor = solid::rotation_tensor(solid::turned(solid::no_rotation, turn));
+  Axis expected;
   for (const auto& [mass, x] : points) {
     const Triple spin = cross(x, cross({0.8, -0.3, 1.1}, x));
-    for (int d = 0; d < 3; ++d) expected[d] += mass * spin[d];
+    expected += mass * (tensor * Axis{{spin[0], spin[1], spin[2]}});
   }
   for (int d = 0; d < 3; ++d) CHECK(setup.initial_momentum[d] == Approx(expected[d]).epsilon(1e-12));
 }
