@@ -198,6 +198,16 @@ Mat<3, 3, double> inertia_of(const Moments& moments, double density, int dim) {
   return inertia;
 }
 
+/// About which a body turns.
+int axes(int dimension) { return dimension == 2 ? 1 : 3; }
+
+/// @throws Error where a list of the scene has another number of entries
+void require_entries(const Parameters& of, const std::string& key, std::size_t found, int expected) {
+  if (found != static_cast<std::size_t>(expected))
+    throw Error(of.where(key), "`" + key + "` needs " + std::to_string(expected) + " entries, found " +
+                                   std::to_string(found));
+}
+
 }  // namespace
 
 Schema RigidBody::schema() {
@@ -258,11 +268,8 @@ std::vector<Unknown> RigidBody::unknowns(int dimension) const {
 
 void RigidBody::prescribe(FieldSetup& setup, const std::string& unknown) const {
   if (!parameters_.has(unknown)) return;
-  const auto& values = parameters_.vector_expression(unknown);
-  const std::size_t expected = unknown == "translation" ? setup.dimension() : setup.dimension() == 2 ? 1 : 3;
-  if (values.size() != expected)
-    throw Error(parameters_.where(unknown), "`" + unknown + "` needs " + std::to_string(expected) +
-                                                " entries, found " + std::to_string(values.size()));
+  require_entries(parameters_, unknown, parameters_.vector_expression(unknown).size(),
+                  unknown == "translation" ? setup.dimension() : axes(setup.dimension()));
   prescribe_given(setup, parameters_, "", unknown);
 }
 
@@ -280,8 +287,7 @@ void RigidBody::build(FieldSetup& setup) const {
   const Moment moment{
       parameters_.number("rotational_stiffness"), parameters_.number("rotational_damping"),
       parameters_.has("moment") ? parameters_.vector_expression("moment") : std::vector<Expression>{}};
-  if (!moment.load.empty() && moment.load.size() != (dim == 2 ? 1u : 3u))
-    throw Error(parameters_.where("moment"), "`moment` needs one entry in 2D, three in 3D");
+  if (parameters_.has("moment")) require_entries(parameters_, "moment", moment.load.size(), axes(dim));
   if (dim == 2) {
     setup.add_cell_term(make_term(PlaneMoments{moment}), {"rotation"});
   } else {
@@ -309,6 +315,8 @@ void RigidBody::build(FieldSetup& setup) const {
   Vec<3, double> spin;
   if (parameters_.has("initial")) {
     const Parameters& initial = parameters_.object("initial");
+    if (initial.has("rotation_rate"))
+      require_entries(initial, "rotation_rate", initial.vector("rotation_rate").size(), axes(dim));
     for (const auto& [key, unknown] :
          {std::pair("velocity", "translation"), std::pair("rotation_rate", "rotation")})
       if (initial.has(key))

@@ -191,6 +191,26 @@ TEST_CASE("a pendulum's period is right to second order") {
   CHECK(coarse / fine == Approx(4).epsilon(0.1));
 }
 
+TEST_CASE("a rigid body that cannot be is refused, with the key's place") {
+  const auto refused = [](const std::string& space, const std::string& keys) {
+    const Run run("title: A block\ndimension: " + space + "\nplugins: [solid]\nmeshes: {block: {grid: " +
+                      (space == "2" ? "{from: [0, 0], to: [1, 1], cells: [1, 1]}"
+                                    : "{from: [0, 0, 0], to: [1, 1, 1], cells: [1, 1, 1]}") +
+                      "}}\nfields:\n  block:\n    type: rigid_body\n    mesh: block\n    density: 1\n    " +
+                      keys + "\ntime: {theta: 1, end: 1, step: {initial: 0.5}}\noutput: {fields: false}\n",
+                  "--quiet");
+    CHECK(run.done.code == 2);
+    return run.done.output;
+  };
+  CHECK_THAT(refused("3", "initial: {rotation_rate: [1]}"),
+             Contains("scene.yaml:10:30: error: `rotation_rate` needs 3 entries, found 1"));
+  CHECK_THAT(refused("3", "initial: {rotation_rate: [1, 0, 0, 0]}"), Contains("needs 3 entries, found 4"));
+  CHECK_THAT(refused("2", "initial: {rotation_rate: [1, 0, 0]}"), Contains("needs 1 entries, found 3"));
+  CHECK_THAT(refused("3", "initial: {velocity: [1, 0]}"),
+             Contains("scene.yaml:10") && Contains("velocity: ") && Contains("a list of 3 numbers"));
+  CHECK_THAT(refused("3", "moment: [1]"), Contains("`moment` needs 3 entries, found 1"));
+}
+
 TEST_CASE("what springs couple swings right to second order") {
   const auto off = [](const std::string& steps) {
     const ShippedRun run("solid/coupled_blocks", unchecked + "--set parameters.steps=" + steps);
