@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "joint.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -29,7 +31,7 @@ struct Present {
   std::optional<RigidPosition> partner;  ///< another rigid body
   std::vector<Weighed> nodes;            ///< of a boundary
   Direction mean{};                      ///< displacement of the boundary
-  double time = 0;
+  double given = 0;                      ///< angle or way
 
   [[nodiscard]] Present at_start() const {
     Present start = *this;
@@ -68,6 +70,7 @@ class Joint final : public Constraint {
       axis_ = (1 / length) * axis;
     }
     if (p.has("motion")) motion_ = p.expression("motion");
+    motion_where_ = p.where("motion");
   }
 
   void build(ConstraintSetup& setup) override {
@@ -87,7 +90,7 @@ class Joint final : public Constraint {
   }
 
   void tie(Ties& ties, const TimePoint& time) const override {
-    Present present{body_.present(ties), std::nullopt, {}, {}, time.time};
+    Present present{body_.present(ties), std::nullopt, {}, {}, given_motion(time.time)};
     if (to_) present.partner = to_->present(ties);
     if (deforming_ != nullptr) present.nodes = boundary_nodes(ties);
     for (const Weighed& node : present.nodes) present.mean += node.weight * node.displacement;
@@ -100,6 +103,16 @@ class Joint final : public Constraint {
   }
 
  private:
+  /// @throws Error where it is no number: an increment that is none would pass for one that is met
+  [[nodiscard]] double given_motion(double time) const {
+    const double value = motion_ ? (*motion_)(at_->c.data(), dimension_, time) : 0;
+    if (std::isfinite(value)) return value;
+    throw Error(motion_where_,
+                fmt::format("the `motion` of the joint that holds '{}' is {} at ({:.6g}), t = {:.6g}: `{}`",
+                            body_name_, value, fmt::join(at_->c.data(), at_->c.data() + dimension_, ", "),
+                            time, motion_->text()));
+  }
+
   /// @throws Error where keys do not go together
   void require() {
     communicator_ = &body_.field().mesh().communicator();
@@ -170,14 +183,13 @@ class Joint final : public Constraint {
       way.value[d] -= Number(present.mean[d], other + d);
       way.motion[other + d][d] -= Number(1);
     }
-    const double given = motion_ ? (*motion_)(at_->c.data(), dimension_, present.time) : 0;
     std::vector<Condition> all;
     if (kind_ == "slide") {
       for (const Direction& normal : normals_of(*axis_))
         if (dimension_ == 3 || normal[2] == 0) all.push_back(dot(partner.direction(normal), way));
       if (motion_) {
         all.push_back(dot(partner.direction(*axis_), way));
-        all.back().value -= Number(given);
+        all.back().value -= Number(present.given);
       }
     } else {
       for (int d = 0; d < dimension_; ++d) {
@@ -186,7 +198,7 @@ class Joint final : public Constraint {
         all.push_back(dot(fixed(e), way));
       }
     }
-    add_rotations(body, partner, given, all);
+    add_rotations(body, partner, present.given, all);
     return all;
   }
 
@@ -318,7 +330,7 @@ class Joint final : public Constraint {
     }
   }
 
-  Location where_;
+  Location where_, motion_where_;
   std::string kind_, body_name_, to_name_, boundary_;
   std::optional<Direction> at_, axis_;
   std::optional<Expression> motion_;  ///< rad or m

@@ -334,6 +334,34 @@ fields:
              Contains("displacement") || Contains("middle"));
 }
 
+TEST_CASE("a given motion that is no number ends the run, and names what gives it") {
+  const auto ended = [](const std::string& body, const std::string& joint) {
+    const Run run(R"yaml(
+title: A bar that is moved
+dimension: 2
+plugins: [solid]
+meshes: {bar: {grid: {from: [0, 0], to: [1, 0.2], cells: [1, 1]}}}
+fields:
+  bar: {type: rigid_body, mesh: bar, density: 1)yaml" +
+                      body + "}\n" + joint +
+                      "\ntime: {theta: 1, end: 1, step: {initial: 0.5}}\noutput: {fields: false}\n",
+                  "--quiet");
+    CHECK((run.done.code == 1 || run.done.code == 2));
+    return run.done.output;
+  };
+  const auto joint = [](const std::string& motion) {
+    return "constraints:\n  - {type: joint, kind: hinge, body: bar, at: [0, 0.1], motion: " + motion + "}";
+  };
+  const std::string holds = "the `motion` of the joint that holds 'bar' is ";
+  CHECK_THAT(ended("", joint("sqrt(0.7 - t)")), Contains("scene.yaml:9:65: error: " + holds) &&
+                                                    Contains("nan at (0, 0.1), t = 1: `sqrt(0.7 - t)`"));
+  CHECK_THAT(ended("", joint("\"t < 0.6 ? 0.1*t : 1/0\"")), Contains(holds + "inf at (0, 0.1), t = 0.6"));
+  CHECK_THAT(ended("", joint("log(t)")), Contains(holds + "-inf at (0, 0.1), t = 0"));
+  CHECK_THAT(ended(", translation: [1/(1 - t), 0]", ""),
+             Contains("the value given for 'translation' of field 'bar' is inf at (0.5, 0.1), t = 1: ") &&
+                 !Contains("boundary"));
+}
+
 TEST_CASE("what presses on rigid bodies must have a stiffness, and only one") {
   const auto contact = [](const std::string& stiffness) {
     return Run(R"yaml(

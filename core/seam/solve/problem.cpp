@@ -36,12 +36,12 @@ double prescribed_value(const FieldEntry& entry, const PrescribedCondition& cond
   const int dim = entry.mesh->dimension();
   const double value = condition.value(x, dim, time);
   if (std::isfinite(value)) return value;
-  throw Error(
-      condition.where,
-      fmt::format("on boundary '{}' of field '{}' the value given for '{}' is {} at ({:.6g}), t = {:.6g}: "
-                  "`{}`",
-                  condition.boundary, entry.name, condition.unknown, value, fmt::join(x, x + dim, ", "), time,
-                  condition.value.text()));
+  const std::string on =
+      condition.boundary.empty() ? "" : fmt::format(" on boundary '{}'", condition.boundary);
+  throw Error(condition.where,
+              fmt::format("the value given for '{}'{} of field '{}' is {} at ({:.6g}), t = {:.6g}: `{}`",
+                          condition.unknown, on, entry.name, value, fmt::join(x, x + dim, ", "), time,
+                          condition.value.text()));
 }
 
 /// The mesh of a body without deformation: one point at the centre of its shape.
