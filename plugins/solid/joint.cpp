@@ -77,6 +77,7 @@ class Joint final : public Constraint {
     const Field& body = setup.field(body_name_);
     dimension_ = body.mesh().dimension();
     body_ = RigidUnknowns(body);
+    length_ = body.constant("radius_of_gyration");
     if (!to_name_.empty() && boundary_.empty()) to_ = RigidUnknowns(setup.field(to_name_));
     if (!boundary_.empty()) {
       if (to_name_.empty()) throw Error(where_, "`on` names a boundary of the field `to`, which is missing");
@@ -269,24 +270,34 @@ class Joint final : public Constraint {
     }
   }
 
+  /// How much an unknown of the body changes a row: turns by a length of the body as much as translations.
+  [[nodiscard]] double size(const Condition& row, int k) const {
+    return std::abs(row.motion[k].v) * (k < 3 ? length_ : 1);
+  }
   /// An unknown of the body for each condition.
   [[nodiscard]] std::vector<int> choose(std::vector<Condition> rows) const {
+    std::vector<double> whole;
+    for (const Condition& row : rows) {
+      whole.push_back(0);
+      for (int k = 0; k < other; ++k) whole.back() = std::max(whole.back(), size(row, k));
+    }
     std::vector<int> chosen;
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      chosen.push_back(choose(rows[r], chosen));
+      chosen.push_back(choose(rows[r], whole[r], chosen));
       reduce(rows, r, chosen[r]);
     }
     return chosen;
   }
-  /// A translation where one appears. @throws Error where there is none left
-  [[nodiscard]] int choose(const Condition& row, const std::vector<int>& taken) const {
+  /// A translation where one appears.
+  /// @param whole size of the row before others were taken out of it
+  /// @throws Error where there is none left
+  [[nodiscard]] int choose(const Condition& row, double whole, const std::vector<int>& taken) const {
     constexpr double nothing = 1e-6;
     int best = -1;
     for (int k = 0; k < other; ++k) {
       if (k == 3 && best >= 0) break;
       if (!body_.free(k) || std::ranges::find(taken, k) != taken.end()) continue;
-      const double size = std::abs(row.motion[k].v);
-      if (size > nothing && (best < 0 || size > std::abs(row.motion[best].v))) best = k;
+      if (size(row, k) > nothing * whole && (best < 0 || size(row, k) > size(row, best))) best = k;
     }
     if (best >= 0) return best;
     throw Error(where_, "this joint cannot hold '" + body_name_ +
@@ -335,6 +346,7 @@ class Joint final : public Constraint {
   std::optional<Direction> at_, axis_;
   std::optional<Expression> motion_;  ///< rad or m
   int dimension_ = 2;
+  double length_ = 0;  ///< of the body that is held, m
   const Communicator* communicator_ = nullptr;
   RigidUnknowns body_;
   std::optional<RigidUnknowns> to_;              ///< another rigid body

@@ -2,6 +2,7 @@
 #include "rigid_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "kernels.hpp"
 #include "rotation.hpp"
@@ -295,10 +296,13 @@ void RigidBody::build(FieldSetup& setup) const {
     setup.add_cell_term(make_term(SpaceOrientation{}), {"rotation", "orientation"});
   }
 
+  const Moments moments = setup.moments();
+  const auto& second = moments.second;
+  setup.publish("radius_of_gyration",
+                std::sqrt((second[0][0] + second[1][1] + second[2][2]) / moments.volume));
   const double density = parameters_.number("density");
   Mat<3, 3, double> inertia;
   if (density > 0) {
-    const Moments moments = setup.moments();
     const double mass = density * moments.volume;
     inertia = inertia_of(moments, density, dim);
     setup.add_cell_term(make_term(RigidMass{mass}), {"translation"});

@@ -334,6 +334,28 @@ fields:
              Contains("displacement") || Contains("middle"));
 }
 
+TEST_CASE("a joint holds a body of any size") {
+  const auto turned = [](const std::string& size) {
+    const Run run("title: A crank\ndimension: 2\nplugins: [solid]\nparameters: {s: " + size + R"yaml(}
+meshes: {crank: {grid: {from: [0, 0], to: [2*s, s], cells: [2, 1]}}}
+fields: {crank: {type: rigid_body, mesh: crank, density: 1, translation: [0.03*s*t, null]}}
+constraints: [{type: joint, kind: hinge, body: crank, at: [0.3*s, 0.2*s]}]
+time: {theta: 1, end: 1, step: {initial: 0.1}}
+output: {fields: false, probes: {angle: {field: crank, quantity: rotation}}}
+)yaml",
+                  "--quiet");
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    return run.series("angle").back();
+  };
+  // The hinge is 0.7 beside and 0.3 below the centre, which goes by 0.03.
+  const double arm = std::hypot(0.7, 0.3), angle = std::acos(0.73 / arm) - std::acos(0.7 / arm);
+  for (const char* size : {"1", "1e-8", "1e8"}) {
+    CAPTURE(size);
+    CHECK(turned(size) == Approx(angle).epsilon(1e-8));
+  }
+}
+
 TEST_CASE("a given motion that is no number ends the run, and names what gives it") {
   const auto ended = [](const std::string& body, const std::string& joint) {
     const Run run(R"yaml(
