@@ -229,8 +229,8 @@ Schema RigidBody::schema() {
       .unit("kg/m^3")
       .otherwise("0")
       .at_least(0);
-  s.vector("stiffness", "Springs that hold the centre, per direction").unit("N/m").optional();
-  s.vector("damping", "Dashpots at the centre, per direction").unit("N s/m").optional();
+  s.vector("stiffness", "Springs that hold the centre, per direction").unit("N/m").at_least(0).optional();
+  s.vector("damping", "Dashpots at the centre, per direction").unit("N s/m").at_least(0).optional();
   s.number("rotational_stiffness", "Spring against rotation: moment per angle; in space up to half a turn")
       .unit("N m")
       .otherwise("0")

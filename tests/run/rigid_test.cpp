@@ -209,6 +209,9 @@ TEST_CASE("a rigid body that cannot be is refused, with the key's place") {
   CHECK_THAT(refused("3", "initial: {velocity: [1, 0]}"),
              Contains("scene.yaml:10") && Contains("velocity: ") && Contains("a list of 3 numbers"));
   CHECK_THAT(refused("3", "moment: [1]"), Contains("`moment` needs 3 entries, found 1"));
+  for (const std::string key : {"stiffness", "damping"})
+    CHECK_THAT(refused("2", key + ": [-1, 0]"),
+               Contains("scene.yaml:10") && Contains(key + "[0]: -1 is out of range, expected at least 0"));
 }
 
 TEST_CASE("what springs couple swings right to second order") {
