@@ -61,6 +61,7 @@ class Joint final : public Constraint {
         body_name_(p.text("body")),
         to_name_(p.has("to") ? p.text("to") : ""),
         boundary_(p.has("on") ? p.text("on") : "") {
+    to_where_ = p.where("to");
     if (p.has("at")) std::ranges::copy(p.vector("at"), at_.emplace().c.begin());
     if (p.has("axis")) {
       Direction axis{};
@@ -78,7 +79,14 @@ class Joint final : public Constraint {
     dimension_ = body.mesh().dimension();
     body_ = RigidUnknowns(body);
     length_ = body.constant("radius_of_gyration");
-    if (!to_name_.empty() && boundary_.empty()) to_ = RigidUnknowns(setup.field(to_name_));
+    if (!to_name_.empty() && boundary_.empty()) {
+      const Field& to = setup.field(to_name_);
+      if (to.mesh().type() != CellType::point)
+        throw Error(to_where_, fmt::format("'{}' is no `rigid_body`: a joint to a body that deforms needs "
+                                           "`on`, the boundary of it that is to hold '{}'",
+                                           to_name_, body_name_));
+      to_ = RigidUnknowns(to);
+    }
     if (!boundary_.empty()) {
       if (to_name_.empty()) throw Error(where_, "`on` names a boundary of the field `to`, which is missing");
       deforming_ = &setup.field(to_name_);
@@ -341,7 +349,7 @@ class Joint final : public Constraint {
     }
   }
 
-  Location where_, motion_where_;
+  Location where_, to_where_, motion_where_;
   std::string kind_, body_name_, to_name_, boundary_;
   std::optional<Direction> at_, axis_;
   std::optional<Expression> motion_;  ///< rad or m

@@ -309,8 +309,10 @@ meshes:
 fields:
   one: {type: rigid_body, mesh: one, density: 1, body_force: [0, -1]}
   two: {type: rigid_body, mesh: two, density: 1)yaml" +
-                      keys + "}\nconstraints:\n" + constraints +
-                      "\ntime: {theta: 1, end: 1, step: {initial: 0.5}}\noutput: {fields: false}\n",
+                      keys + R"yaml(}
+  soft: {type: solid, mesh: one, material: {type: neo_hookean, young: 50, poisson: 0.3}, boundary: [{on: x_min, displacement: [0, 0]}]}
+constraints:
+)yaml" + constraints + "\ntime: {theta: 1, end: 1, step: {initial: 0.5}}\noutput: {fields: false}\n",
                   "--quiet");
     CHECK(run.done.code != 0);
     return run.done.output;
@@ -318,12 +320,12 @@ fields:
   const std::string first = "  - {type: joint, kind: hinge, body: two, at: [2, 0]}\n";
   const std::string twice =
       refused(first + "  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\n");
-  CHECK_THAT(twice, Contains("is tied twice") && Contains("scene.yaml:12") && Contains("scene.yaml:13"));
+  CHECK_THAT(twice, Contains("is tied twice") && Contains("scene.yaml:13") && Contains("scene.yaml:14"));
   CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\n"
                      "  - {type: joint, kind: hinge, body: one, to: two, at: [0, 0]}\n"),
              Contains("in a circle"));
   CHECK_THAT(refused(first, ", translation: [0, 0], rotation: [0]"),
-             Contains("this joint cannot hold 'two'") && Contains("scene.yaml:12"));
+             Contains("this joint cannot hold 'two'") && Contains("scene.yaml:13"));
   CHECK_THAT(refused("  - {type: joint, kind: slide, body: two, at: [2, 0]}\n"),
              Contains("needs the direction `axis`"));
   CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two}\n"), Contains("needs the point `at`"));
@@ -335,6 +337,9 @@ fields:
              Contains("a weld has neither"));
   CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: one, on: x_max, at: [1, 0]}\n"),
              Contains("displacement") || Contains("middle"));
+  CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: soft, at: [1, 0]}\n"),
+             Contains("scene.yaml:13:47: error: 'soft' is no `rigid_body`: a joint to a body that deforms "
+                      "needs `on`, the boundary of it that is to hold 'two'"));
 }
 
 TEST_CASE("a joint holds a body of any size") {
