@@ -75,10 +75,11 @@ class Joint final : public Constraint {
   }
 
   void build(ConstraintSetup& setup) override {
-    const Field& body = setup.field(body_name_);
+    Field& body = setup.field(body_name_);
     dimension_ = body.mesh().dimension();
     body_ = RigidUnknowns(body);
     length_ = body.constant("radius_of_gyration");
+    refuse_second(body);
     if (!to_name_.empty() && boundary_.empty()) {
       const Field& to = setup.field(to_name_);
       if (to.mesh().type() != CellType::point)
@@ -120,6 +121,18 @@ class Joint final : public Constraint {
                 fmt::format("the `motion` of the joint that holds '{}' is {} at ({:.6g}), t = {:.6g}: `{}`",
                             body_name_, value, fmt::join(at_->c.data(), at_->c.data() + dimension_, ", "),
                             time, motion_->text()));
+  }
+
+  /// @throws Error where another joint holds the body
+  void refuse_second(Field& body) const {
+    constexpr const char* line = "line of its joint";
+    if (body.has_constant(line))
+      throw Error(
+          where_,
+          fmt::format("'{}' is held by a second joint; the first one stands at {}. A body has one "
+                      "joint; hold the others to it, or by a `spring` on a `link`",
+                      body_name_, Location{where_.file, static_cast<int>(body.constant(line)), 0}.text()));
+    body.set_constant(line, where_.line);
   }
 
   /// @throws Error where keys do not go together

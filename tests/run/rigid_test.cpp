@@ -320,10 +320,11 @@ constraints:
   const std::string first = "  - {type: joint, kind: hinge, body: two, at: [2, 0]}\n";
   const std::string twice =
       refused(first + "  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\n");
-  CHECK_THAT(twice, Contains("is tied twice") && Contains("scene.yaml:13") && Contains("scene.yaml:14"));
+  CHECK_THAT(twice, Contains("scene.yaml:14:5: error: 'two' is held by a second joint; the first one ") &&
+                        Contains("scene.yaml:13. A body has one joint; hold the others to it"));
   CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\n"
                      "  - {type: joint, kind: hinge, body: one, to: two, at: [0, 0]}\n"),
-             Contains("in a circle"));
+             Contains("'translation' in x of field '") && Contains(", 0.1) is tied to itself in a circle"));
   CHECK_THAT(refused(first, ", translation: [0, 0], rotation: [0]"),
              Contains("this joint cannot hold 'two'") && Contains("scene.yaml:13"));
   CHECK_THAT(refused("  - {type: joint, kind: slide, body: two, at: [2, 0]}\n"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/assembly/ties.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -44,6 +44,26 @@ void add(std::vector<TiedTo>& list, const TiedTo& entry) {
   found->handed += entry.handed;
 }
 
+/// "'displacement' in x of field 'skin' at (1, 0.5)"
+std::string describe(const auto& blocks, const UnknownPlace& place) {
+  const auto& [of, block] = blocks[place.block];
+  const Field& field = *of;
+  const int dim = field.mesh().dimension();
+  std::string name;
+  for (const Unknown& unknown : field.unknowns()) {
+    const Field::ComponentRange range = field.place(unknown.name);
+    const int component = place.component - range.offset;
+    if (range.block != block || component < 0 || component >= range.components) continue;
+    name = fmt::format("'{}'", unknown.name);
+    if (range.components == dim)
+      name += fmt::format(" in {}", "xyz"[component]);
+    else if (range.components > 1)
+      name = fmt::format("component {} of {}", component, name);
+  }
+  return fmt::format("{} of field '{}' at ({:.6g})", name, field.name(),
+                     fmt::join(place.position, place.position + dim, ", "));
+}
+
 }  // namespace
 
 Ties::Ties(const std::vector<Field*>& fields) {
@@ -77,13 +97,9 @@ std::vector<Ties::Resolved> Ties::close() {
   for (std::size_t k = 0; k < added_.size(); ++k) {
     const auto [found, is_new] = index_.emplace(added_[k].tie.unknown.key(), k);
     if (is_new) continue;
-    const UnknownPlace& place = added_[k].tie.unknown;
-    throw Error(
-        added_[k].where,
-        fmt::format("component {} of field '{}' at ({:.6g}, {:.6g}, {:.6g}) is tied twice; the other tie "
-                    "stands at {}",
-                    place.component, blocks_[place.block].field->name(), place.position[0], place.position[1],
-                    place.position[2], added_[found->second].where.text()));
+    throw Error(added_[k].where,
+                fmt::format("{} is tied twice; the other tie stands at {}",
+                            describe(blocks_, added_[k].tie.unknown), added_[found->second].where.text()));
   }
   std::map<UnknownPlace::Key, char> done;
   for (Added& added : added_) {
@@ -137,13 +153,9 @@ void Ties::follow(Added& added, std::vector<const Added*>& under_way,
                   std::map<UnknownPlace::Key, char>& done) {
   if (done.contains(added.tie.unknown.key())) return;
   if (const auto circle = std::ranges::find(under_way, &added); circle != under_way.end())
-    throw Error(
-        added.where,
-        fmt::format("component {} of field '{}' at ({:.6g}, {:.6g}, {:.6g}) is tied to itself in a circle, "
-                    "by way of the tie at {}",
-                    added.tie.unknown.component, blocks_[added.tie.unknown.block].field->name(),
-                    added.tie.unknown.position[0], added.tie.unknown.position[1],
-                    added.tie.unknown.position[2], under_way.back()->where.text()));
+    throw Error(added.where,
+                fmt::format("{} is tied to itself in a circle, by way of the tie at {}",
+                            describe(blocks_, added.tie.unknown), under_way.back()->where.text()));
   under_way.push_back(&added);
   Resolved result{added.tie.unknown, {}, added.tie.constant, {}};
   const auto tie_of = [&](const UnknownPlace& place) -> const Resolved* {
@@ -184,12 +196,8 @@ void Ties::require_free(const Added& added) const {
   const Block& block = blocks_[place.block].field->blocks()[blocks_[place.block].block];
   const int node = block.space->local_node(place.node);
   if (node < 0 || !block.prescribed[static_cast<std::size_t>(node) * block.size + place.component]) return;
-  throw Error(
-      added.where,
-      fmt::format("component {} of field '{}' at ({:.6g}, {:.6g}, {:.6g}) is tied here and prescribed by a "
-                  "condition of its field",
-                  place.component, blocks_[place.block].field->name(), place.position[0], place.position[1],
-                  place.position[2]));
+  throw Error(added.where,
+              describe(blocks_, place) + " is tied here and prescribed by a condition of its field");
 }
 
 /// Those of unknowns that this rank holds; the nodes they are tied to become known here.
