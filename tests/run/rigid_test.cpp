@@ -343,6 +343,38 @@ constraints:
                       "needs `on`, the boundary of it that is to hold 'two'"));
 }
 
+TEST_CASE("a surface that follows no body is found before the first step, in a flow and without") {
+  const auto refused = [](const std::string& fluid, const std::string& coupling) {
+    const Folder folder;
+    const Result done = seam("check " + folder.file("scene.yaml", R"yaml(
+title: A disc whose constraint was forgotten
+dimension: 2
+plugins: [cutfem_fluid, solid, nitsche_fsci]
+meshes:
+  box: {grid: {from: [0, 0], to: [1, 1], cells: [6, 6]}}
+  block: {grid: {from: [0.3, 0.3], to: [0.7, 0.7], cells: [3, 3]}}
+fields:
+  block: {type: rigid_body, mesh: block, density: 2}
+  skin: {type: rigid_surface, mesh: block}
+)yaml" + fluid + coupling + R"yaml(
+time: {theta: 1, end: 1, step: {initial: 0.5}}
+output: {fields: false}
+)yaml"));
+    CHECK(done.code == 2);
+    return done.output;
+  };
+  CHECK_THAT(refused("", ""), Contains("field 'skin' is not held") &&
+                                  Contains("tie it to one (`constraints`, as {type: rigid} ties a"));
+  CHECK_THAT(
+      refused("  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 1, boundary: [{on: [x_min, "
+              "x_max, y_min, y_max], velocity: [0, 0]}]}\n",
+              "interfaces: {gamma: {type: embedded, field: water, body: skin}}\n"
+              "coupling: [{type: fsi, on: gamma}]\n"),
+      Contains(
+          "field 'skin': nothing resists at 4 of its nodes if its displacement changes there, as at (") &&
+          Contains("tie it there (`constraints`, as {type: rigid} ties a"));
+}
+
 TEST_CASE("a joint holds a body of any size") {
   const auto turned = [](const std::string& size) {
     const Run run("title: A crank\ndimension: 2\nplugins: [solid]\nparameters: {s: " + size + R"yaml(}

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <list>
@@ -97,6 +98,40 @@ std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes
   return result;
 }
 
+constexpr const char* how_to_tie = "`constraints`, as {type: rigid} ties a `rigid_surface` to its body";
+
+/// Unknowns of which no equation speaks at some nodes, though something holds the field: a surface whose body
+/// it does not follow, in a flow. Collective.
+std::string describe_idle(Problem& problem) {
+  const Assembler& assembler = problem.assembler();
+  const Matrix& k = assembler.matrix();
+  std::string text;
+  for (const FieldEntry& entry : problem.fields())
+    for (const Unknown& unknown : entry.field->unknowns()) {
+      const auto [number, offset, components] = entry.field->place(unknown.name);
+      if (entry.field->blocks()[number].given) continue;
+      const Space& space = *entry.field->blocks()[number].space;
+      std::vector<std::array<double, 3>> idle;  // positions
+      for (int node = 0; node < space.owned_nodes(); ++node)
+        for (int c = offset; c < offset + components; ++c) {
+          const int row = assembler.row(*entry.field, number, node, c);
+          if (row < 0 || std::any_of(k.value.begin() + k.row_start[row],
+                                     k.value.begin() + k.row_start[row + 1], [](double v) { return v != 0; }))
+            continue;
+          std::copy_n(space.position(node), entry.mesh->dimension(), idle.emplace_back().begin());
+          break;
+        }
+      idle = problem.communicator().gather_all(idle);
+      if (idle.empty()) continue;
+      text += fmt::format(
+          "field '{}': nothing resists at {} of its nodes if its {} changes there, as at ({:.6g}); couple or "
+          "tie it there ({})\n",
+          entry.name, idle.size(), unknown.name,
+          fmt::join(idle.front().begin(), idle.front().begin() + entry.mesh->dimension(), ", "), how_to_tie);
+    }
+  return text;
+}
+
 /// How many parts a mesh has that share no node.
 int count_parts(const MeshData& mesh) {
   DisjointSets sets(mesh.node_count());
@@ -143,11 +178,11 @@ std::string describe_free_modes(Problem& problem, double resistance, bool levels
   std::string text;
   for (const auto& [of, names] : free)
     text += fmt::format(
-        "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere "
-        "or couple the field to another\n",
-        of.first->name, of.second, fmt::join(names, ", "));
+        "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere, couple "
+        "the field to another, or tie it to one ({})\n",
+        of.first->name, of.second, fmt::join(names, ", "), how_to_tie);
   for (const auto& [of, names] : free) text += describe_parts(*of.first);
-  return text;
+  return text.empty() && !levels_only ? describe_idle(problem) : text;
 }
 
 std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations) {
