@@ -163,9 +163,46 @@ TEST_CASE("tied parts do as the whole") {
   ShippedRun("solid/tied_blocks");
 }
 
+TEST_CASE("a condition where a field is periodic is warned of") {
+  const auto output = [](const std::string& condition, const std::string& unknowns) {
+    const Folder folder;
+    return seam("check " + folder.file("scene.yaml", R"yaml(title: A flow
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [1, 1], cells: [4, 4]}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 1
+    body_force: [1, 0]
+    boundary: [{on: [y_min, y_max], velocity: [0, 0]})yaml" +
+                                                         condition + R"yaml(]
+constraints:
+  - {type: periodic, field: water, boundaries: [x_min, x_max])yaml" +
+                                                         unknowns + R"yaml(}
+time: {theta: 1, end: 1, step: {initial: 0.5}}
+output: {fields: false}
+)yaml"))
+        .output;
+  };
+  CHECK_THAT(output("", ""), !Catch::Contains("warning"));
+  for (const std::string condition : {"velocity: [0, 0]", "outflow: do_nothing", "traction: [1, 0]"}) {
+    CAPTURE(condition);
+    CHECK_THAT(
+        output(", {on: x_max, " + condition + "}", ""),
+        Catch::Contains("scene.yaml:12:61: warning: boundary 'x_max' of field 'water' is periodic (") &&
+            Catch::Contains("scene.yaml:14:5), and has this condition"));
+  }
+  CHECK_THAT(output(", {on: x_max, velocity: [0, null]}", ", unknowns: pressure"),
+             !Catch::Contains("is periodic"));
+}
+
 TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   const std::string periodic = "{type: periodic, field: lower, boundaries: ";
   refuses(scene(periodic + "[x_min]}"), {"found 1 boundaries", "pairs"});
+  refuses(scene(periodic + "[x_min, x_min]}"), {"boundary 'x_min' stands here twice"});
   refuses(scene(periodic + "[x_min, y_max]}"), {"on 'x_min' of field 'lower' has none on 'y_max'"});
   refuses(scene(periodic + "[x_min, x_max]}", "cells: [4, 4], map: [x, 'y + 0.1*x*y*(1 - y)']"),
           {"periodic boundaries need meshes that match"});

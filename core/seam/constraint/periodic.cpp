@@ -32,6 +32,12 @@ class Periodic final : public Constraint {
       throw Error(p.where("boundaries"),
                   fmt::format("found {} boundaries, expected pairs of opposite ones: [x_min, x_max]",
                               boundaries_.size()));
+    for (auto one = boundaries_.begin(); one != boundaries_.end(); ++one)
+      if (std::find(boundaries_.begin(), one, *one) != one)
+        throw Error(p.where("boundaries"),
+                    fmt::format("boundary '{}' stands here twice; each continues on one other boundary: "
+                                "[x_min, x_max]",
+                                *one));
   }
 
   void build(ConstraintSetup& setup) override {

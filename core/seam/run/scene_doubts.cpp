@@ -28,6 +28,8 @@ class Doubts {
     for (const auto& [name, probe] : at_.scene.root.object("output").map("probes"))
       look_at_probe(name, probe);
     for (const Parameters& coupling : at_.scene.root.list("coupling")) look_at_wall(coupling);
+    for (const Parameters& constraint : at_.scene.root.list("constraints"))
+      if (constraint.type() == "periodic") look_at_periodic(constraint);
     return std::move(found_);
   }
 
@@ -169,6 +171,30 @@ class Doubts {
                  "is not the field '{}'",
                  name, body.name, body.field));
     }
+  }
+
+  /// Where a field goes on there is no boundary that a condition could be for.
+  void look_at_periodic(const Parameters& constraint) {
+    if (!constraint.names("unknowns").empty()) return;  // others have conditions
+    const std::vector<std::string> joined = constraint.names("boundaries");
+    const auto& fields = at_.scene.root.map("fields");
+    const auto field =
+        std::ranges::find(fields, constraint.text("field"), &std::pair<std::string, Parameters>::first);
+    if (field == fields.end() || !field->second.has("boundary")) return;
+    const std::vector<Parameters>* conditions = nullptr;
+    try {
+      conditions = &field->second.list("boundary");
+    } catch (const std::logic_error&) {
+      return;  // something else of this name
+    }
+    for (const Parameters& condition : *conditions)
+      for (const std::string& on : condition.names("on"))
+        if (std::ranges::find(joined, on) != joined.end())
+          warn(condition.where("on"),
+               fmt::format("boundary '{}' of field '{}' is periodic ({}), and has this condition: what it "
+                           "prescribes holds on both sides, and what it applies acts within the field; "
+                           "leave one of them out",
+                           on, field->first, constraint.where().text()));
   }
 
   /// A wall that moves one way and says another velocity lets fluid through.
