@@ -54,6 +54,8 @@ MISTAKES = [
     ("text", "", {BEAM: ("title: A", "title A"), CYLINDERS: ("title: T", "title T")}),
     # References between parts.
     ("reference", "beem", {BEAM: ("mesh: beam", "mesh: beem"), CYLINDERS: ("mesh: channel", "mesh: beem"), LEAF: ("mesh: leaf", "mesh: beem")}),
+    ("reference", "beem", {BEAM: ("linear: direct", "linear: {type: krylov, fields: {beem: ilu}}")}),
+    ("reference", "blod", {LEAF: ("linear: direct", "linear: {type: krylov, fields: {blod: {type: ilu, fill: 1}}}")}),
     ("reference", "x_mim", {BEAM: ("on: x_min, disp", "on: x_mim, disp"), CYLINDERS: ("on: x_min", "on: x_mim"), LEAF: ("on: x_min", "on: x_mim")}),
     ("reference", "left", {BEAM: ("on: x_min, disp", "on: left, disp"), LEAF: ("[{on: y_min, disp", "[{on: left, disp")}),
     ("reference", "middle", {BEAM: ("on: near, mat", "on: middle, mat")}),
@@ -70,6 +72,8 @@ MISTAKES = [
     ("reference", "near_slip", {LEAF: ("{type: contact_in_fluid, on: leaf, stress: own, near_slip: {factor: 0.1, reach: 1/n}}", "{type: contact_in_fluid, on: leaf, stress: own, near_slip: 0.1}")}),
     ("reference", "no condition", {CYLINDERS: (", backflow: 0.5", "}\n      - {on: x_max, backflow: 0.5")}),
     ("reference", "y_max", {CYLINDERS: ("{on: x_max, outflow", "{on: [x_max, y_max], outflow"), LEAF: ("{on: x_max, outflow", "{on: [x_max, y_max], outflow")}),
+    ("reference", "stands here twice", {CYLINDERS: ("coupling:\n", "constraints: [{type: periodic, field: water, boundaries: [y_min, y_min]}]\ncoupling:\n")}),
+    ("reference", "is periodic", {CYLINDERS: ("coupling:\n", "constraints: [{type: periodic, field: water, boundaries: [y_min, y_max]}]\ncoupling:\n")}),
     ("text", "moving", {LEAF: ("    ghost_penalty: {viscous: 0.5, faces: all}\n", "    moving: leaf\n")}),
     ("reference", "solid", {BEAM: ("plugins: [solid]", "plugins: []"), LEAF: ("[cutfem_fluid, solid, ", "[cutfem_fluid, ")}),
     # Names of results.

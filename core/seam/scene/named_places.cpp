@@ -73,6 +73,16 @@ class Walker {
     places.push_back(std::move(place));
   }
 
+  /// Inverses for single fields stand under the names of these.
+  void add_field(const std::string& name, const std::string& path, const Location& where) {
+    NamedPlace place;
+    place.target = "field";
+    place.name = name;
+    place.path = path;
+    place.where = where;
+    places.push_back(std::move(place));
+  }
+
   void typed(const Parameters& values, const std::string& kind, const std::string& path,
              const Around& around) {
     if (const Registry::Entry* entry = registry_.find(kind, values.type()))
@@ -110,6 +120,7 @@ class Walker {
           const std::string place = path + "." + name;
           Around inside = around;
           if (path == "fields") inside.speak_of(of_field(name));
+          if (p.target == "block_inverse") add_field(name, place, entry.where());
           p.kind == ValueKind::map ? object(entry, *p.sub, place, inside)
                                    : typed(entry, p.target, place, inside);
         }
