@@ -3,6 +3,7 @@
 
 #include "quantities.hpp"
 #include "rigid_motion.hpp"
+#include "seam/base/diagnostics.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/term/fad.hpp"
@@ -17,7 +18,10 @@ namespace {
 class Rigid final : public Constraint {
  public:
   explicit Rigid(const Parameters& p)
-      : name_(p.text("field")), body_name_(p.text("body")), boundary_(p.has("on") ? p.text("on") : "") {}
+      : where_(p.has("on") ? p.where("on") : p.where()),
+        name_(p.text("field")),
+        body_name_(p.text("body")),
+        boundary_(p.has("on") ? p.text("on") : "") {}
 
   void build(ConstraintSetup& setup) override {
     surface_ = &setup.field(name_);
@@ -29,16 +33,23 @@ class Rigid final : public Constraint {
   void tie(Ties& ties, const TimePoint&) const override {
     const RigidPosition at = body_.present(ties);
     const int owned = surface_->blocks()[place_.block].space->owned_nodes();
+    bool any = false;
     if (boundary_.empty())
-      for (int node = 0; node < owned; ++node) tie_node(ties, at, node);
+      for (int node = 0; node < owned; ++node) any |= tie_node(ties, at, node);
     for (const int node : nodes_)
-      if (node < owned) tie_node(ties, at, node);
+      if (node < owned) any |= tie_node(ties, at, node);
+    if (surface_->mesh().communicator().any(any)) return;
+    const std::string on = boundary_.empty() ? "" : " on boundary '" + boundary_ + "'";
+    throw Error(where_, "all of the displacement" + on + " of field '" + name_ +
+                            "' is given, so that nothing there can follow '" + body_name_ +
+                            "'; leave what gives it out, or this constraint");
   }
 
  private:
   using First = Fad<3, double>;
 
-  void tie_node(Ties& ties, const RigidPosition& at, int node) const {
+  /// @return whether any of its components follow
+  bool tie_node(Ties& ties, const RigidPosition& at, int node) const {
     const Block& block = surface_->blocks()[place_.block];
     const int dim = surface_->mesh().dimension();
     Vec<3, First> rotation;
@@ -51,8 +62,10 @@ class Rigid final : public Constraint {
     const Vec<3, First> there = turn * arm;
     // How it moves with turns about each of the body's axes.
     const Mat<3, 3, First> lever = -1.0 * (turn * skew(arm));
+    bool any = false;
     for (int i = 0; i < dim; ++i) {
       if (!is_free(block, node, place_.offset + i)) continue;
+      any = true;
       std::vector<TiedTo> to{{body_.place(at, i), 1, 1}};
       double constant = there[i].v - arm[i];
       for (int k = body_.first_axis(); k < 3; ++k) {
@@ -64,8 +77,10 @@ class Rigid final : public Constraint {
         for (int l = body_.first_axis(); l < 3; ++l)
           ties.add_change(body_.place(at, 3 + k), body_.place(at, 3 + l), lever(i, k).d[l]);
     }
+    return any;
   }
 
+  Location where_;
   std::string name_, body_name_, boundary_;
   Field* surface_ = nullptr;
   Field::ComponentRange place_{};

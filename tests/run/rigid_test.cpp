@@ -297,7 +297,7 @@ output:
   CHECK(last("angle") == Approx(-std::atan2(0.1, 0.6)).epsilon(1e-9));
 }
 
-TEST_CASE("joints that cannot be are refused, with their places") {
+TEST_CASE("joints and ties of points that cannot be are refused, with their places") {
   const auto refused = [](const std::string& constraints, const std::string& keys = "") {
     const Run run(R"yaml(
 title: Two bars
@@ -338,6 +338,10 @@ constraints:
              Contains("a weld has neither"));
   CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: one, on: x_max, at: [1, 0]}\n"),
              Contains("displacement") || Contains("middle"));
+  CHECK_THAT(
+      refused("  - {type: rigid, field: soft, on: x_min, body: two}\n"),
+      Contains("scene.yaml:13:36: error: all of the displacement on boundary 'x_min' of field 'soft' is "
+               "given, so that nothing there can follow 'two'"));
   CHECK_THAT(refused("  - {type: joint, kind: hinge, body: two, to: soft, at: [1, 0]}\n"),
              Contains("scene.yaml:13:47: error: 'soft' is no `rigid_body`: a joint to a body that deforms "
                       "needs `on`, the boundary of it that is to hold 'two'"));
