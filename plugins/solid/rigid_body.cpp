@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rigid_body.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
-#include "kernels.hpp"
 #include "rotation.hpp"
+#include "seam/physics/body_terms.hpp"
 #include "seam/physics/conditions.hpp"
+#include "seam/scene/expression.hpp"
 #include "seam/scene/function.hpp"
 #include "seam/term/kernel_term.hpp"
 
@@ -199,6 +202,29 @@ Mat<3, 3, double> inertia_of(const Moments& moments, double density, int dim) {
   return inertia;
 }
 
+/// @param length of the body, m
+/// @throws Error where a force per mass varies within it, at some time: at the centre alone it would have
+/// neither all of its sum nor its moment
+void require_uniform(const std::vector<Expression>& force, const Moments& body, double length, int dim,
+                     const Location& where) {
+  const double arms[][3] = {{1, 0.7, 0.4}, {-0.8, 0.5, -0.9}};
+  for (const Expression& component : force)
+    for (const double time : {0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6})
+      for (const auto& arm : arms) {
+        double beside[3];
+        for (int d = 0; d < dim; ++d) beside[d] = body.centre[d] + length * arm[d];
+        const double here = component(body.centre, dim, time), there = component(beside, dim, time);
+        constexpr double rounding = 1e-12;
+        // What is no number is told when it is used.
+        if (!std::isfinite(here) || std::abs(there - here) <= rounding * std::abs(here)) continue;
+        throw Error(
+            where, fmt::format("the `body_force` of a rigid body is one force per mass for all of it, as "
+                               "gravity is, and `{}` varies in space; give what it adds up to over the body, "
+                               "as `force` and `moment`",
+                               component.text()));
+      }
+}
+
 /// About which a body turns.
 int axes(int dimension) { return dimension == 2 ? 1 : 3; }
 
@@ -238,7 +264,9 @@ Schema RigidBody::schema() {
   s.number("rotational_damping", "Dashpot against rotation").unit("N m s").otherwise("0").at_least(0);
   s.vector_expression("force", "Load at the centre").unit("N").optional();
   s.vector_expression("moment", "Load: one entry in 2D, three in 3D").unit("N m").entries(-1).optional();
-  s.vector_expression("body_force", "Force per mass, as gravity").unit("m/s^2").optional();
+  s.vector_expression("body_force", "Force per mass, the same in all of the body, as gravity")
+      .unit("m/s^2")
+      .optional();
   Schema initial("Motion at the start");
   initial.vector("velocity", "Velocity of the centre").unit("m/s").optional();
   initial.vector("rotation_rate", "Angular velocity: one entry in 2D, three in 3D, about the body's axes")
@@ -298,8 +326,8 @@ void RigidBody::build(FieldSetup& setup) const {
 
   const Moments moments = setup.moments();
   const auto& second = moments.second;
-  setup.publish("radius_of_gyration",
-                std::sqrt((second[0][0] + second[1][1] + second[2][2]) / moments.volume));
+  const double length = std::sqrt((second[0][0] + second[1][1] + second[2][2]) / moments.volume);
+  setup.publish("radius_of_gyration", length);
   const double density = parameters_.number("density");
   Mat<3, 3, double> inertia;
   if (density > 0) {
@@ -312,9 +340,12 @@ void RigidBody::build(FieldSetup& setup) const {
       setup.add_cell_term(make_term(SpaceInertia{inertia}), {"rotation", "angular_momentum", "orientation"});
     setup.add_integral("kinetic_energy", make_quantity(RigidKineticEnergy{mass, inertia}),
                        {"translation", "rotation"});
-    if (parameters_.has("body_force"))
+    if (parameters_.has("body_force")) {
+      require_uniform(parameters_.vector_expression("body_force"), moments, length, dim,
+                      parameters_.where("body_force"));
       setup.add_cell_term(make_term(BodyLoad{parameters_.vector_expression("body_force"), mass}),
                           {"translation"});
+    }
   }
   Vec<3, double> spin;
   if (parameters_.has("initial")) {

@@ -209,6 +209,12 @@ TEST_CASE("a rigid body that cannot be is refused, with the key's place") {
   CHECK_THAT(refused("3", "initial: {velocity: [1, 0]}"),
              Contains("scene.yaml:10") && Contains("velocity: ") && Contains("a list of 3 numbers"));
   CHECK_THAT(refused("3", "moment: [1]"), Contains("`moment` needs 3 entries, found 1"));
+  for (const std::string force : {"[0, x^2]", "[(x - 0.5)*(y - 0.5), -9.81]", "[0, sqrt(y - 0.5)]"})
+    CHECK_THAT(
+        refused("2", "body_force: " + force),
+        Contains("scene.yaml:10:17: error: the `body_force` of a rigid body is one force per mass for all of "
+                 "it") &&
+            Contains("` varies in space; give what it adds up to over the body, as `force` and `moment`"));
   for (const std::string key : {"stiffness", "damping"})
     CHECK_THAT(refused("2", key + ": [-1, 0]"),
                Contains("scene.yaml:10") && Contains(key + "[0]: -1 is out of range, expected at least 0"));
