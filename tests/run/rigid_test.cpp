@@ -385,6 +385,34 @@ output: {fields: false}
           Contains("tie it there (`constraints`, as {type: rigid} ties a"));
 }
 
+TEST_CASE("a motion at the start that a joint does not let go is refused") {
+  const auto run = [](const std::string& initial, const std::string& motion) {
+    return Run(R"yaml(
+title: A bar on a hinge
+dimension: 2
+plugins: [solid]
+meshes: {bar: {grid: {from: [0, 0], to: [1, 0.2], cells: [1, 1]}}}
+fields:
+  bar: {type: rigid_body, mesh: bar, density: 1, initial: )yaml" +
+                   initial + "}\nconstraints: [{type: joint, kind: hinge, body: bar, at: [0, 0]" + motion +
+                   "}]\ntime: {theta: 1, end: 0.1, step: {initial: 0.1}}\noutput: {fields: false}\n",
+               "--quiet");
+  };
+  const std::string refused = run("{velocity: [0, 5]}", "").done.output;
+  CHECK_THAT(refused, Contains("scene.yaml:7:8: error: field 'bar' is to start with 5 as a rate of its "
+                               "'translation' (`initial`), and the constraint that ties it leaves 0"));
+  CHECK_THAT(run("{velocity: [1, 5], rotation_rate: [10]}", "").done.output,
+             Contains("with 1 as a rate") && Contains("leaves -1;"));
+  // The hinge is 0.5 beside and 0.1 below the centre.
+  for (const std::string goes : {"{velocity: [-1, 5], rotation_rate: [10]}", "{rotation_rate: [10]}"}) {
+    const Run free = run(goes, "");
+    CAPTURE(goes, free.done.output);
+    REQUIRE(free.done.code == 0);
+    CHECK(free.series("bar.kinetic_energy").front() == Approx(0.1 * 1.04 / 3 * 100).epsilon(1e-10));
+  }
+  CHECK(run("{velocity: [-0.1, 0.5], rotation_rate: [1]}", ", motion: t").done.code == 0);
+}
+
 TEST_CASE("a joint holds a body of any size") {
   const auto turned = [](const std::string& size) {
     const Run run("title: A crank\ndimension: 2\nplugins: [solid]\nparameters: {s: " + size + R"yaml(}

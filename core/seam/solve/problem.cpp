@@ -106,6 +106,38 @@ std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
   return unknowns;
 }
 
+/// @throws Error where a body is to start with a rate that what it is tied to does not leave it
+/// @pre it is one point, which this rank owns
+void require_kept_rates(const FieldEntry& entry, double time) {
+  struct Rate {
+    std::string unknown;
+    double given, left;
+  };
+  std::vector<Rate> rates;
+  double largest = 0;
+  for (const Unknown& unknown : entry.field->unknowns()) {
+    const auto [number, offset, components] = entry.field->place(unknown.name);
+    const Block& block = entry.field->blocks()[number];
+    for (const FieldEntry::Initial& initial : entry.initial) {
+      if (!initial.rate || initial.block != number || initial.component < offset ||
+          initial.component >= offset + components)
+        continue;
+      const double given = initial.value(block.space->position(0), entry.mesh->dimension(), time);
+      rates.push_back({unknown.name, given, block.now.rate[initial.component]});
+      largest = std::max({largest, std::abs(given), std::abs(rates.back().left)});
+    }
+  }
+  constexpr double rounding = 1e-9;
+  for (const Rate& rate : rates)
+    if (rate.given != 0 && std::abs(rate.given - rate.left) > rounding * largest)  // 0: as it may
+      throw Error(
+          entry.where,
+          fmt::format("field '{}' is to start with {:.6g} as a rate of its '{}' (`initial`), and the "
+                      "constraint that ties it leaves {:.6g}; give all of a motion that the constraint "
+                      "lets it make, or only what it is free to do",
+                      entry.name, rate.given, rate.unknown, rate.left));
+}
+
 /// What a constraint may ask of a problem.
 class FieldsForConstraint final : public ConstraintSetup {
  public:
@@ -303,8 +335,26 @@ void Problem::initialise(double time, bool impose_prescribed) {
     }
   if (!constraints_.empty() && impose_prescribed) {
     state_.advance();  // a constraint may look at the start of the step
-    if (assembler_->tie(ties(time_point(time, 0, 1)))) assembler_->rebuild();
+    std::vector<Ties::Resolved> start = ties(time_point(time, 0, 1));
+    // Where a motion is given in time, what goes along with it has a rate that is not known here.
+    const double soon = time + 1e-8 * (1 + std::abs(time));
+    const bool is_given =
+        !std::ranges::equal(start, ties(time_point(soon, 0, 1)), {}, &Ties::Resolved::constant,
+                            &Ties::Resolved::constant) ||
+        std::ranges::any_of(fields_, [](const FieldEntry& entry) {
+          return !entry.physics->displacement().empty() &&
+                 std::ranges::any_of(entry.conditions, [](const PrescribedCondition& condition) {
+                   return !condition.value.is_constant();
+                 });
+        });
+    if (assembler_->tie(std::move(start))) assembler_->rebuild();
     assembler_->settle();
+    if (!communicator_.any(is_given))
+      together(communicator_, [&] {
+        for (const FieldEntry& entry : fields_)
+          if (entry.physics->support() == Support::point && entry.field->blocks()[0].space->owned_nodes() > 0)
+            require_kept_rates(entry, time);
+      });
   }
   state_.advance();
 }
