@@ -290,9 +290,8 @@ std::vector<Unknown> RigidBody::unknowns(int dimension) const {
   if (dimension == 2) return {translation, rotation};
   Unknown orientation{"orientation", 4, 1, 0, "", UnknownRole::derived};
   orientation.scale = 1;
-  std::vector<Unknown> all{translation, rotation, orientation};
-  if (order == 2) all.push_back({"angular_momentum", 3, 1, 1, "kg m^2/s"});
-  return all;
+  if (order < 2) return {translation, rotation, orientation};
+  return {translation, rotation, orientation, {"angular_momentum", 3, 1, 1, "kg m^2/s"}};
 }
 
 void RigidBody::prescribe(FieldSetup& setup, const std::string& unknown) const {

@@ -27,6 +27,9 @@ function(seam_add_plugin name)
   add_library(${target} MODULE ${plugin_SOURCES})
   target_link_libraries(${target} PRIVATE Seam::core)
   target_compile_features(${target} PRIVATE cxx_std_20)
+  if(TARGET seam_precompiled)  # those of Seam itself
+    target_precompile_headers(${target} REUSE_FROM seam_precompiled)
+  endif()
   target_compile_definitions(
     ${target} PRIVATE "SEAM_PLUGIN_NAME=\"${name}\"" "SEAM_PLUGIN_VERSION=\"${plugin_VERSION}\""
                       "SEAM_PLUGIN_LICENSE=\"${plugin_LICENSE}\"" "SEAM_PLUGIN_REQUIRES=\"${requires}\""
