@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <optional>
 
 #include "joint_conditions.hpp"
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/base/rates.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/scene/expression.hpp"
 
@@ -25,19 +27,41 @@ struct Weighed {
   Direction displacement{};
 };
 
+/// A number for each of the motions that conditions speak of.
+using PerMotion = std::array<double, motions>;
+
+template <class Derivatives>
+double product(const Derivatives& a, const PerMotion& b) {
+  return std::inner_product(b.begin(), b.end(), std::begin(a), 0.0);
+}
+
 /// Where all is at an instant, known on all ranks.
 struct Present {
   RigidPosition body;
   std::optional<RigidPosition> partner;  ///< another rigid body
   std::vector<Weighed> nodes;            ///< of a boundary
   Direction mean{};                      ///< displacement of the boundary
-  double given = 0;                      ///< angle or way
+  Number given{0.0}, given_rate{0.0};    ///< motion, with its rates
 
   [[nodiscard]] Present at_start() const {
     Present start = *this;
     start.body = body.at_start();
     if (partner) start.partner = partner->at_start();
     return start;
+  }
+  /// How unknowns change where things move so: a body's spin is not the rate of its angles.
+  [[nodiscard]] PerMotion change(const PerMotion& motion) const {
+    PerMotion result = motion;
+    const auto turn = [&](const RigidPosition& at, int first) {
+      const Mat<3, 3, double> by_turns = at.by_turns();
+      for (int i = 0; i < 3; ++i) {
+        result[first + i] = 0;
+        for (int k = 0; k < 3; ++k) result[first + i] += by_turns(i, k) * motion[first + k];
+      }
+    };
+    turn(body, 3);
+    if (partner) turn(*partner, other + 3);
+    return result;
   }
   /// Of one of the unknowns of both; of a boundary the mean.
   [[nodiscard]] double value(int k) const {
@@ -48,7 +72,7 @@ struct Present {
 };
 
 /// What Gauss-Jordan elimination works on.
-std::array<Number, both>& entries(Condition& row) { return row.motion; }
+std::array<Number, motions>& entries(Condition& row) { return row.motion; }
 std::array<double, both + 1>& entries(std::array<double, both + 1>& row) { return row; }
 
 /// Holds a rigid body to another one, to the ground or to a boundary of a body that deforms: as many of its
@@ -100,7 +124,8 @@ class Joint final : public Constraint {
   }
 
   void tie(Ties& ties, const TimePoint& time) const override {
-    Present present{body_.present(ties), std::nullopt, {}, {}, given_motion(time.time)};
+    Present present{body_.present(ties), std::nullopt, {}, {}, Number(0.0), Number(0.0)};
+    if (motion_) set_motion(present, time.time);
     if (to_) present.partner = to_->present(ties);
     if (deforming_ != nullptr) present.nodes = boundary_nodes(ties);
     for (const Weighed& node : present.nodes) present.mean += node.weight * node.displacement;
@@ -115,7 +140,7 @@ class Joint final : public Constraint {
  private:
   /// @throws Error where it is no number: an increment that is none would pass for one that is met
   [[nodiscard]] double given_motion(double time) const {
-    const double value = motion_ ? (*motion_)(at_->c.data(), dimension_, time) : 0;
+    const double value = (*motion_)(at_->c.data(), dimension_, time);
     if (std::isfinite(value)) return value;
     throw Error(motion_where_,
                 fmt::format("the `motion` of the joint that holds '{}' is {} at ({:.6g}), t = {:.6g}: `{}`",
@@ -197,6 +222,15 @@ class Joint final : public Constraint {
     return communicator_->gather_all(own);
   }
 
+  void set_motion(Present& present, double time) const {
+    const std::array<double, 2> rates =
+        rates_of([&](double t) { return (*motion_)(at_->c.data(), dimension_, t); }, time);
+    present.given = Number(given_motion(time));
+    present.given.d[the_clock] = rates[0];
+    present.given_rate = Number(rates[0]);
+    present.given_rate.d[the_clock] = rates[1];
+  }
+
   [[nodiscard]] std::vector<Condition> conditions(const Present& present) const {
     const Partner body(body_, present.body, 0);
     const Partner partner = to_ ? Partner(*to_, *present.partner, other) : Partner();
@@ -211,7 +245,8 @@ class Joint final : public Constraint {
         if (dimension_ == 3 || normal[2] == 0) all.push_back(dot(partner.direction(normal), way));
       if (motion_) {
         all.push_back(dot(partner.direction(*axis_), way));
-        all.back().value -= Number(present.given);
+        all.back().value -= present.given;
+        all.back().motion[the_clock] -= present.given_rate;
       }
     } else {
       for (int d = 0; d < dimension_; ++d) {
@@ -220,11 +255,11 @@ class Joint final : public Constraint {
         all.push_back(dot(fixed(e), way));
       }
     }
-    add_rotations(body, partner, present.given, all);
+    add_rotations(body, partner, present, all);
     return all;
   }
 
-  void add_rotations(const Partner& body, const Partner& partner, double given,
+  void add_rotations(const Partner& body, const Partner& partner, const Present& present,
                      std::vector<Condition>& all) const {
     const bool turns = kind_ == "hinge";
     if (dimension_ == 2) {
@@ -232,8 +267,11 @@ class Joint final : public Constraint {
       Condition angle = body.angle();
       const Condition beside = partner.angle();
       angle.value -= beside.value;
-      if (turns) angle.value -= Number(given);
       for (int k = 0; k < both; ++k) angle.motion[k] -= beside.motion[k];
+      if (turns) {
+        angle.value -= present.given;
+        angle.motion[the_clock] -= present.given_rate;
+      }
       all.push_back(angle);
       return;
     }
@@ -250,9 +288,14 @@ class Joint final : public Constraint {
     const std::array<Direction, 2> normal = normals_of(*axis_);
     for (const Direction& n : normal) all.push_back(dot(body.direction(*axis_), partner.direction(n)));
     // The first normal turns by the angle: it is normal to where the second one turns.
-    if (motion_)
-      all.push_back(dot(body.direction(normal[0]),
-                        partner.direction(std::cos(given) * normal[1] - std::sin(given) * normal[0])));
+    if (!motion_) return;
+    const Number sine = sin(present.given), cosine = cos(present.given);
+    Vec<3, Number> second, first;  // turned
+    for (int i = 0; i < 3; ++i) {
+      second[i] = cosine * normal[1][i] - sine * normal[0][i];
+      first[i] = cosine * normal[0][i] + sine * normal[1][i];
+    }
+    all.push_back(dot(body.direction(normal[0]), partner.direction(second, -present.given_rate * first)));
   }
 
   /// Solves the conditions for unknowns of the body, as many as there are: Gauss-Jordan elimination, once of
@@ -269,6 +312,20 @@ class Joint final : public Constraint {
       reduce(rows, r, pivot[r]);
     }
     const auto stays = [&](int k) { return exists(k) && std::ranges::find(pivot, k) == pivot.end(); };
+    // How things move changes with unknowns of rigid bodies alone, and with time.
+    std::vector<int> moving;
+    for (int k = 0; k < (deforming_ != nullptr ? other : both); ++k)
+      if (stays(k)) moving.push_back(k);
+    if (motion_) moving.push_back(the_clock);
+    std::array<PerMotion, motions> by_value{}, by_motion{};  // [of what changes] how all unknowns do
+    for (const int l : moving) {
+      by_value[l][l] = by_motion[l][l] = 1;
+      for (std::size_t p = 0; p < rows.size(); ++p) {
+        if (l < both) by_value[l][pivot[p]] = -values[p][l];
+        by_motion[l][pivot[p]] = -rows[p].motion[l].v;
+      }
+      by_motion[l] = present.change(by_motion[l]);
+    }
     for (std::size_t r = 0; r < rows.size(); ++r) {
       std::vector<TiedTo> to;
       double constant = present.value(pivot[r]) - values[r][both];
@@ -277,16 +334,13 @@ class Joint final : public Constraint {
         constant += values[r][k] * present.value(k);
         add(to, present, k, -values[r][k], -rows[r].motion[k].v);
       }
+      if (motion_) to.push_back({UnknownPlace::clock(), 0, -rows[r].motion[the_clock].v});
       ties.tie(body_.place(present.body, pivot[r]), std::move(to), constant);
-      // How things move changes with unknowns of rigid bodies alone.
-      const int rigid = deforming_ != nullptr ? other : both;
-      for (int k = 0; k < rigid; ++k)
-        for (int l = 0; l < rigid; ++l) {
-          if (!stays(k) || !stays(l)) continue;
-          double change = rows[r].motion[k].d[l];
-          for (std::size_t p = 0; p < rows.size(); ++p)
-            change -= rows[r].motion[k].d[pivot[p]] * values[p][l];
-          ties.add_change(place(present, k), place(present, l), -change);
+      for (const int k : moving)
+        for (const int l : moving) {
+          const Number& motion = rows[r].motion[k];
+          ties.add_change(place(present, k), place(present, l), -product(motion.d, by_value[l]),
+                          -product(motion.d, by_motion[l]));
         }
     }
   }
@@ -346,6 +400,7 @@ class Joint final : public Constraint {
     return deforming_ != nullptr && k - other < dimension_;
   }
   [[nodiscard]] UnknownPlace place(const Present& present, int k) const {
+    if (k == the_clock) return UnknownPlace::clock();
     return k < other ? body_.place(present.body, k) : to_->place(*present.partner, k - other);
   }
   void add(std::vector<TiedTo>& to, const Present& present, int k, double coefficient, double handed) const {

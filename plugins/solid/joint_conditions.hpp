@@ -12,32 +12,35 @@ namespace seam::solid {
 
 /// Unknowns of two bodies: 0 to 5 translations and rotations of the one that is held, 6 to 11 of the other.
 constexpr int both = 12;
-using Number = Fad<both, double>;
+/// With which a given motion goes on.
+constexpr int the_clock = both;
+constexpr int motions = both + 1;
+using Number = Fad<motions, double>;
 using Direction = Vec<3, double>;
 constexpr int other = 6;
 
 /// A point or a direction, and how it changes with each unknown's virtual motion: with translations, and with
-/// turns about the axes of the body.
+/// turns about the axes of the body, and with time.
 struct Moving {
   Vec<3, Number> value;
-  std::array<Vec<3, Number>, both> motion{};
+  std::array<Vec<3, Number>, motions> motion{};
 };
 
 /// What a joint wants to be zero, m or 1, and how it changes with virtual motions.
 struct Condition {
   Number value;
-  std::array<Number, both> motion{};
+  std::array<Number, motions> motion{};
 };
 
 inline Moving operator-(const Moving& a, const Moving& b) {
   Moving r{a.value - b.value};
-  for (int k = 0; k < both; ++k) r.motion[k] = a.motion[k] - b.motion[k];
+  for (int k = 0; k < motions; ++k) r.motion[k] = a.motion[k] - b.motion[k];
   return r;
 }
 
 inline Condition dot(const Moving& a, const Moving& b) {
   Condition r{seam::dot(a.value, b.value)};
-  for (int k = 0; k < both; ++k)
+  for (int k = 0; k < motions; ++k)
     r.motion[k] = seam::dot(a.motion[k], b.value) + seam::dot(a.value, b.motion[k]);
   return r;
 }
@@ -74,7 +77,14 @@ class Partner {
     return r;
   }
   [[nodiscard]] Moving direction(const Direction& reference) const {
+    Vec<3, Number> constant;
+    for (int i = 0; i < 3; ++i) constant[i] = Number(reference[i]);
+    return direction(constant, Vec<3, Number>{});
+  }
+  /// @param rate with which the direction goes on in the body
+  [[nodiscard]] Moving direction(const Vec<3, Number>& reference, const Vec<3, Number>& rate) const {
     Moving r{turn_ * reference};
+    r.motion[the_clock] = turn_ * rate;
     if (dimension_ == 0) return r;
     const Mat<3, 3, Number> lever = -1.0 * (turn_ * skew(reference));
     for (int k = axis_; k < 3; ++k)

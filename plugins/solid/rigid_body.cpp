@@ -193,6 +193,42 @@ class SpaceStart final : public Function {
   Vec<3, double> momentum_;
 };
 
+/// Of the centre, m/s.
+struct RigidVelocity {
+  using translation = Vector<0>;
+  using Reads = Slots<Rate<translation>>;
+  static constexpr int values(int dim) { return dim; }
+  template <int dim>
+  void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* value) const {
+    std::ranges::copy(s.rate(translation{}).c, value);
+  }
+};
+
+/// Angular velocity, rad/s.
+struct PlaneSpin {
+  using rotation = Rotation<0>;
+  using Reads = Slots<Rate<rotation>>;
+  static constexpr int values(int) { return 1; }
+  template <int dim>
+  void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* value) const {
+    if constexpr (dim == 2) *value = s.rate(rotation{});
+  }
+};
+
+/// Angular velocity in axes of space, rad/s: the rotation's rates are about the body's own.
+struct SpaceSpin {
+  using rotation = Rotation<0>;
+  using orientation = OrientationOf<1>;
+  using Reads = Slots<Value<rotation>, OldValue<rotation>, Rate<rotation>, OldValue<orientation>>;
+  static constexpr int values(int) { return 3; }
+  template <int dim>
+  void operator()(const Point<dim>&, const Trial<dim, double, Reads>& s, double* value) const {
+    if constexpr (dim == 3)
+      std::ranges::copy(
+          (rotation_tensor(orientation_of(s, rotation{}, orientation{})) * s.rate(rotation{})).c, value);
+  }
+};
+
 Mat<3, 3, double> inertia_of(const Moments& moments, double density, int dim) {
   Mat<3, 3, double> inertia;
   const auto& m = moments.second;
@@ -327,6 +363,13 @@ void RigidBody::build(FieldSetup& setup) const {
   const auto& second = moments.second;
   const double length = std::sqrt((second[0][0] + second[1][1] + second[2][2]) / moments.volume);
   setup.publish("radius_of_gyration", length);
+  if (time_order() > 0) {
+    setup.add_output("velocity", make_quantity(RigidVelocity{}), {"translation"});
+    if (dim == 2)
+      setup.add_output("spin", make_quantity(PlaneSpin{}), {"rotation"});
+    else
+      setup.add_output("spin", make_quantity(SpaceSpin{}), {"rotation", "orientation"});
+  }
   const double density = parameters_.number("density");
   Mat<3, 3, double> inertia;
   if (density > 0) {

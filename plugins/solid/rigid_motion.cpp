@@ -12,7 +12,7 @@ RigidUnknowns::RigidUnknowns(const Field& field)
   if (first_axis() == 0) orientation_ = field.place("orientation").offset;
 }
 
-RigidPosition RigidUnknowns::present(const Ties& ties) const {
+RigidPosition RigidUnknowns::present(Ties& ties) const {
   std::vector<RigidPosition> own;
   if (owned()) {
     RigidPosition& at = own.emplace_back();
@@ -30,7 +30,9 @@ RigidPosition RigidUnknowns::present(const Ties& ties) const {
     // Where no initial state has been set yet.
     if (dot(at.old_orientation, at.old_orientation) == 0) at.old_orientation = no_rotation;
   }
-  return field_->mesh().communicator().gather_all(own).at(0);
+  const RigidPosition at = field_->mesh().communicator().gather_all(own).at(0);
+  if (at.in_space) ties.set_axes(place(at, 3), at.turn(Vec<3, double>{at.rotation}));
+  return at;
 }
 
 UnknownPlace RigidUnknowns::place(const RigidPosition& at, int number) const {

@@ -24,6 +24,13 @@ struct RigidPosition {
     start.rotation = old_rotation;
     return start;
   }
+  /// How the unknowns of its rotation change with turns about its axes.
+  [[nodiscard]] Mat<3, 3, double> by_turns() const {
+    if (!in_space) return identity<3>();
+    Vec<3, double> since;
+    for (int k = 0; k < 3; ++k) since[k] = rotation[k] - old_rotation[k];
+    return rate_of_rotation_vector(since);
+  }
   /// What the unknowns of its rotation do to vectors that are fixed in it.
   template <class T>
   [[nodiscard]] Mat<3, 3, T> turn(const Vec<3, T>& unknowns) const {
@@ -40,8 +47,8 @@ class RigidUnknowns {
   /// @throws Error listing the field's unknowns when it is no rigid body
   explicit RigidUnknowns(const Field& field);
   [[nodiscard]] const Field& field() const { return *field_; }
-  /// Collective.
-  [[nodiscard]] RigidPosition present(const Ties& ties) const;
+  /// Collective. Says which axes it turns about.
+  [[nodiscard]] RigidPosition present(Ties& ties) const;
   /// First axis that it turns about, of 3.
   [[nodiscard]] int first_axis() const { return rotation_.components == 1 ? 2 : 0; }
   /// Number of an unknown, of 6: translations, then rotations about the axes. @pre there is one

@@ -53,9 +53,10 @@ class Rigid final : public Constraint {
     const Block& block = surface_->blocks()[place_.block];
     const int dim = surface_->mesh().dimension();
     Vec<3, First> rotation;
-    Vec<3, double> arm;
+    Vec<3, double> arm, at_present;
     for (int k = 0; k < 3; ++k) {
       rotation[k] = First(at.rotation[k], k);
+      at_present[k] = at.rotation[k];
       if (k < dim) arm[k] = block.space->position(node)[k] - at.centre.position[k];
     }
     const Mat<3, 3, First> turn = at.turn(rotation);
@@ -63,6 +64,13 @@ class Rigid final : public Constraint {
     // How it moves with turns about each of the body's axes.
     const Mat<3, 3, First> lever = -1.0 * (turn * skew(arm));
     bool any = false;
+    // And how that changes where the body turns on about them.
+    std::array<Mat<3, 3, double>, 3> lever_turned;
+    for (int l = 0; l < 3; ++l) {
+      Vec<3, double> axis;
+      axis[l] = 1;
+      lever_turned[l] = -1.0 * (at.turn(at_present) * (skew(axis) * skew(arm)));
+    }
     for (int i = 0; i < dim; ++i) {
       if (!is_free(block, node, place_.offset + i)) continue;
       any = true;
@@ -75,7 +83,8 @@ class Rigid final : public Constraint {
       ties.tie(ties.place(*surface_, place_.block, node, place_.offset + i), std::move(to), constant);
       for (int k = body_.first_axis(); k < 3; ++k)
         for (int l = body_.first_axis(); l < 3; ++l)
-          ties.add_change(body_.place(at, 3 + k), body_.place(at, 3 + l), lever(i, k).d[l]);
+          ties.add_change(body_.place(at, 3 + k), body_.place(at, 3 + l), lever(i, k).d[l],
+                          lever_turned[l](i, k));
     }
     return any;
   }

@@ -65,6 +65,17 @@ Quaternion<T> turned(const Quaternion<S>& start, const Vec<3, T>& turn) {
   return product(start, on);
 }
 
+/// What angular velocities about the turned body's own axes make of the rate of a rotation vector that has
+/// turned it: the inverse of what exponentials have as their derivative (Iserles et al., Acta Numerica 9,
+/// 2000, (2.46)).
+inline Mat<3, 3, double> rate_of_rotation_vector(const Vec<3, double>& turn) {
+  const double square = dot(turn, turn), half = 0.5 * std::sqrt(square);
+  const double factor =
+      square < 1e-4 ? (1 + square / 60 * (1 + square / 42)) / 12 : (1 - half / std::tan(half)) / square;
+  const Mat<3, 3, double> w = skew(turn);
+  return identity<3>() + 0.5 * w + factor * (w * w);
+}
+
 template <class T>
 Mat<3, 3, T> rotation_tensor(const Quaternion<T>& q) {
   Vec<3, T> v;

@@ -556,6 +556,30 @@ output:
     }
 }
 
+TEST_CASE("a body that turns in a closed box is no source of fluid, by a quarter of a radian a step") {
+  const Run run(R"yaml(
+title: A bar turns in a closed box
+dimension: 2
+plugins: [solid, cutfem_fluid, nitsche_fsci]
+meshes:
+  box: {grid: {from: [-1, -1], to: [1, 1], cells: [20, 20]}}
+  bar: {grid: {from: [-0.6, -0.13], to: [0.6, 0.13], cells: [12, 3]}}
+fields:
+  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, boundary: [{on: [x_min, x_max, y_min, y_max], velocity: [0, 0]}]}
+  bar: {type: rigid_body, mesh: bar, translation: [0, 0], rotation: [t]}
+  skin: {type: rigid_surface, mesh: bar}
+constraints: [{type: rigid, field: skin, body: bar}]
+interfaces: {wet: {type: embedded, field: water, body: skin}}
+coupling: [{type: fsi, on: wet}]
+time: {theta: 1, end: 1, step: {initial: 0.25}}
+output: {fields: false}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  CHECK(run.done.code == 0);
+  CHECK(run.series("time").size() == 5);
+}
+
 TEST_CASE("the force on a body is what the fluid's equations leave") {
   const Run run(R"yaml(
 title: A disc on springs in a flow

@@ -117,11 +117,14 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
   std::fill(local_residual_.begin(), local_residual_.end(), 0.0);
   std::fill(local_magnitude_.begin(), local_magnitude_.end(), 0.0);
   std::fill(local_lift_.begin(), local_lift_.end(), 0.0);
+  local_momentum_.assign(has_turning_ties_ ? local_residual_.size() : 0, 0.0);
+  local_momentum_rate_.assign(local_momentum_.size(), 0.0);
   if (with_tangent) std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   find_pending();
   together(communicator_, [&] {
     for (Group& group : groups_) assemble_group(group, at, with_tangent);
   });
+  balance_momentum(at);
   graph_.collect_vector(local_residual_);
   graph_.collect_vector(local_magnitude_);
   if (with_tangent) {
@@ -223,19 +226,39 @@ std::vector<double> Assembler::rounding() const {
   return squares;
 }
 
+TimePoint by_rates(TimePoint at, double rate_factor, double second_rate_factor) {
+  at.value_factor = 0;
+  at.rate_factor = rate_factor;
+  at.second_rate_factor = second_rate_factor;
+  at.frozen = true;
+  return at;
+}
+
+void Assembler::find_element_nodes(const Group& group, int element) {
+  element_nodes_.clear();
+  const auto& parts = group.evaluator->side_blocks();
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const int* nodes = group.domain->nodes(element, parts[p].side, parts[p].block);
+    for (int a = 0; a < parts[p].nodes; ++a)
+      element_nodes_.push_back(blocks_[group.block_of_side_block[p]].node_index[nodes[a]]);
+  }
+}
+
 void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tangent) {
   ElementEvaluator& element = *group.evaluator;
   for (int e = 0; e < group.domain->size(); ++e) {
     element.compute(e, at, with_tangent);
-    element_nodes_.clear();
-    for (std::size_t p = 0; p < element.side_blocks().size(); ++p) {
-      const auto& side_block = element.side_blocks()[p];
-      const int* nodes = element.element().sides[side_block.side].nodes[side_block.block];
-      for (int a = 0; a < side_block.nodes; ++a)
-        element_nodes_.push_back(blocks_[group.block_of_side_block[p]].node_index[nodes[a]]);
-    }
-    scatter_vector(element, with_tangent);
+    find_element_nodes(group, e);
+    // What is handed on does not change with second rates.
+    scatter_vector(element, with_tangent && !at.initial_rates);
     if (with_tangent) scatter_matrix(element);
+    if (at.step > 0 && element_turns()) {
+      if (element.has_inertia()) assemble_momentum(group, e, at, with_tangent);
+      if (with_tangent) {
+        element.compute(e, by_rates(at, 1, at.rate_factor), true);
+        scatter_rate_matrix(element, at.rate_factor);
+      }
+    }
   }
 }
 

@@ -37,14 +37,22 @@ class Assembler {
 
   /// Ties unknowns from now on, in the place of those tied before. Collective.
   /// @return true when what is tied to what has changed: then rebuild() has to follow
-  bool tie(std::vector<Ties::Resolved> ties);
-  /// Gives tied unknowns the values, and the rates, that follow from what they are tied to. Collective.
+  bool tie(std::vector<Ties::Resolved> ties, const std::vector<Ties::Axes>& axes = {});
+  /// Gives tied unknowns the values that follow from what they are tied to. Collective.
   void settle();
-  /// The change of all unknowns that that of those which are not tied brings. Collective.
+  /// Gives tied unknowns the rates that follow from those of what they are tied to. Collective.
+  void settle_rates();
+  /// The same of second rates: at the start, later on the time scheme says them. Collective.
+  void settle_second_rates();
+  /// The change of all unknowns, or of the highest rates of those that have some, that that of those which
+  /// are not tied brings. Collective.
   /// @param increment [owned row]
   [[nodiscard]] std::vector<double> with_tied(std::vector<double> increment) const;
   /// Whether an owned row's unknown is tied to others.
   [[nodiscard]] bool is_tied(int row) const { return relation_[row] >= 0; }
+  /// Lets unknowns that others are tied to begin a step with the momentum that these hand on, at the present
+  /// states and relations. Collective.
+  void begin_momentum(const TimePoint& at);
   /// Numbers the active unknowns and builds the pattern. Collective.
   void rebuild();
   /// Sets residual, magnitude and (with_tangent) matrix at the present states of the fields. Collective.
@@ -119,15 +127,16 @@ class Assembler {
     UnknownPlace::Key key;
     LocalUnknown tied;
     double constant;
-    double scale;  ///< size that its values have by nature, 0: none
+    double scale;      ///< size that its values have by nature, 0: none
+    double by_itself;  ///< rate that it has with the clock
     struct To {
       LocalUnknown to;
       double coefficient, handed;
     };
     std::vector<To> to;
     struct Change {
-      int row, with;
-      double derivative;
+      LocalUnknown row, with;  ///< not active: the clock
+      double derivative, by_motion;
     };
     std::vector<Change> changes;
   };
@@ -135,6 +144,8 @@ class Assembler {
   void name_unknowns();
   void number_ties();
   void number_changes(const Ties::Resolved& from, Tie& tie) const;
+  [[nodiscard]] double rate_of(const LocalUnknown& unknown) const;
+  [[nodiscard]] bool has_rate(const LocalUnknown& unknown, int order) const;
   [[nodiscard]] LocalUnknown find(const UnknownPlace& place) const;
   [[nodiscard]] double value_of(const LocalUnknown& unknown) const;
   void add_tied_nodes(NodeGraph::Elements& elements) const;
@@ -148,6 +159,9 @@ class Assembler {
   void assemble_group(Group& group, const TimePoint& at, bool with_tangent);
   void scatter_vector(const ElementEvaluator& element, bool with_tangent);
   void scatter_matrix(const ElementEvaluator& element);
+  [[nodiscard]] bool element_turns() const;
+  void scatter_rate_matrix(const ElementEvaluator& element, double rate_factor);
+  void add_column(const ElementEvaluator& element, const double* column, double factor, int unknown);
   /// The part of an element matrix that belongs to a pair of nodes.
   struct NodeBlock {
     const double* from;
@@ -160,6 +174,16 @@ class Assembler {
   void add_to_row(int row, double entry, int column);
   void hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent);
   void hold_related(bool with_tangent);
+  void find_element_nodes(const Group& group, int element);
+  void assemble_momentum(Group& group, int element, const TimePoint& at, bool with_tangent);
+  void hand_on_momentum(const ElementEvaluator& element, const Tie& tie, const double* row,
+                        double rate_factor);
+  void balance_momentum(const TimePoint& at);
+  void in_axes_that_stay(std::vector<double>& local) const;
+  void in_axes_that_turn(std::vector<double>& local) const;
+  [[nodiscard]] std::vector<double> turned_on(const std::vector<double>& local) const;
+  template <class Change>
+  void change_at_axes(const std::vector<double>& from, std::vector<double>& to, const Change& change) const;
   [[nodiscard]] std::vector<double> ways_of_ties() const;
   void settle_ties(const std::vector<double>& remaining);
   /// Position of an entry among the values of the matrix.
@@ -184,18 +208,26 @@ class Assembler {
   static constexpr int is_free = -1, is_prescribed = -2;
   std::vector<int> relation_;  ///< per local unknown (owned and ghost): one of these, or an index into ties_
   std::vector<char> node_has_relations_;
-  std::vector<double> pending_;  ///< per local unknown with a relation: how far it has still to go
+  std::vector<double> pending_;    ///< per local unknown with a relation: how far it has still to go
+  bool has_turning_ties_ = false;  ///< on any rank: coefficients change with the state
   std::vector<Ties::Resolved> resolved_;
   std::vector<Tie> ties_;
   std::vector<int> node_of_;                              ///< [local unknown]: node of the graph
   std::vector<int> first_of_node_;                        ///< [node of the graph]: its first local unknown
   bool has_ties_ = false;                                 ///< on any rank
   std::vector<double> local_residual_, local_magnitude_;  ///< owned and ghost unknowns
-  std::vector<double> local_lift_;  ///< the tangent's action on pending prescribed values
+  /// What tied unknowns hand on to each local unknown: momentum, and the rate of it that second rates make.
+  std::vector<double> local_momentum_, local_momentum_rate_;
+  std::vector<Ties::Axes> axes_;
+  std::vector<std::vector<double>> momentum_at_start_;  ///< of the step, [block][unknown of a local node]
+  std::vector<double> local_lift_;                      ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;
   std::vector<int> element_nodes_;
   bool is_finite_ = true;
   double assembly_seconds_ = 0, pattern_seconds_ = 0;
 };
+
+/// Lets the tangent be the derivative by rates and second rates, times these, alone.
+[[nodiscard]] TimePoint by_rates(TimePoint at, double rate_factor, double second_rate_factor);
 
 }  // namespace seam

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "seam/assembly/assembler.hpp"
+#include "seam/assembly/evaluator.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/field/field.hpp"
 
@@ -36,7 +37,8 @@ Error inactive(const Ties::Resolved& tie, const UnknownPlace& to) {
 
 }  // namespace
 
-bool Assembler::tie(std::vector<Ties::Resolved> ties) {
+bool Assembler::tie(std::vector<Ties::Resolved> ties, const std::vector<Ties::Axes>& axes) {
+  axes_ = axes;
   const bool same = same_relations(ties, resolved_);
   resolved_ = std::move(ties);
   if (communicator_.any(!same)) return true;
@@ -46,9 +48,14 @@ bool Assembler::tie(std::vector<Ties::Resolved> ties) {
     while (resolved_[k].unknown.key() != tie.key) ++k;
     const Ties::Resolved& from = resolved_[k];
     tie.constant = from.constant;
-    for (std::size_t m = 0; m < tie.to.size(); ++m) {
-      tie.to[m].coefficient = from.to[m].coefficient;
-      tie.to[m].handed = from.to[m].handed;
+    std::size_t m = 0;
+    for (const TiedTo& to : from.to) {
+      if (to.unknown.is_clock()) {
+        tie.by_itself = to.handed;
+        continue;
+      }
+      tie.to[m].coefficient = to.coefficient;
+      tie.to[m++].handed = to.handed;
     }
     number_changes(from, tie);
   }
@@ -57,6 +64,7 @@ bool Assembler::tie(std::vector<Ties::Resolved> ties) {
 
 /// The state of an unknown, and its local number; -1 where it is not active.
 Assembler::LocalUnknown Assembler::find(const UnknownPlace& place) const {
+  if (place.is_clock()) return {-1, 0, -1};
   const NumberedBlock& b = blocks_[place.block];
   const int node = b.block->space->local_node(place.node);
   const int index = node >= 0 && node < static_cast<int>(b.node_index.size()) ? b.node_index[node] : -1;
@@ -68,8 +76,8 @@ void Assembler::number_changes(const Ties::Resolved& from, Tie& tie) const {
   tie.changes.clear();
   for (const Ties::Resolved::Change& change : from.changes) {
     for (const UnknownPlace& place : {change.row, change.with})
-      if (find(place).unknown < 0) throw inactive(from, place);
-    tie.changes.push_back({find(change.row).unknown, find(change.with).unknown, change.derivative});
+      if (!place.is_clock() && find(place).unknown < 0) throw inactive(from, place);
+    tie.changes.push_back({find(change.row), find(change.with), change.derivative, change.by_motion});
   }
 }
 
@@ -78,9 +86,13 @@ void Assembler::number_ties() {
   ties_.clear();
   together(communicator_, [&] {
     for (const Ties::Resolved& from : resolved_) {
-      Tie tie{from.unknown.key(), find(from.unknown), from.constant, 0, {}, {}};
+      Tie tie{from.unknown.key(), find(from.unknown), from.constant, 0, 0, {}, {}};
       if (tie.tied.unknown < 0) continue;
       for (const TiedTo& to : from.to) {
+        if (to.unknown.is_clock()) {
+          tie.by_itself = to.handed;
+          continue;
+        }
         tie.to.push_back({find(to.unknown), to.coefficient, to.handed});
         if (tie.to.back().to.unknown < 0) throw inactive(from, to.unknown);
       }
@@ -89,6 +101,8 @@ void Assembler::number_ties() {
     }
   });
   has_ties_ = communicator_.any(!ties_.empty());
+  has_turning_ties_ =
+      communicator_.any(std::ranges::any_of(ties_, [](const Tie& tie) { return !tie.changes.empty(); }));
   if (!has_ties_) return;
   std::vector<std::vector<double>> scale;
   for (const NumberedBlock& b : blocks_) scale.push_back(scales(b));
@@ -111,7 +125,8 @@ void Assembler::add_tied_nodes(NodeGraph::Elements& elements) const {
       const Tie& tie = ties_[relation_[u]];
       for (const Tie::To& to : tie.to) elements.node.push_back(node_of_[to.to.unknown]);
       for (const Tie::Change& change : tie.changes)
-        for (const int unknown : {change.row, change.with}) elements.node.push_back(node_of_[unknown]);
+        for (const LocalUnknown& of : {change.row, change.with})
+          if (of.unknown >= 0) elements.node.push_back(node_of_[of.unknown]);
     }
   }
   if (elements.node.size() == end) return;
@@ -144,6 +159,12 @@ double Assembler::way_of(const Tie& tie) const {
   return std::abs(way) <= rounding * size_of(tie) ? 0.0 : way;
 }
 
+/// Whether an unknown has a rate of this order.
+bool Assembler::has_rate(const LocalUnknown& unknown, int order) const {
+  const Block& block = *blocks_[unknown.block].block;
+  return block.time_order[unknown.state % block.size] >= order;
+}
+
 bool Assembler::ties_pending() const {
   // Relations with coefficients that depend on the state are met as far as Newton's method takes them.
   constexpr double enough = 1e-10;
@@ -168,24 +189,36 @@ void Assembler::settle_ties(const std::vector<double>& remaining) {
 }
 
 void Assembler::settle() {
+  if (has_ties_) settle_ties(std::vector<double>(ties_.size(), 0.0));
+}
+
+double Assembler::rate_of(const LocalUnknown& unknown) const {
+  return unknown.block < 0 ? 1.0 : blocks_[unknown.block].block->now.rate[unknown.state];
+}
+
+void Assembler::settle_rates() {
   if (!has_ties_) return;
-  const auto rates = [&](const LocalUnknown& of, int order) -> double& {
-    NodalState& now = blocks_[of.block].block->now;
-    return (order == 1 ? now.rate : now.second_rate)[of.state];
-  };
   for (const Tie& tie : ties_) {
-    if (tie.tied.unknown >= matrix_.rows) continue;
-    const Block& block = *blocks_[tie.tied.block].block;
-    for (int order = 1; order <= block.time_order[tie.tied.state % block.size]; ++order) {
-      double rate = 0;
-      for (const Tie::To& to : tie.to) rate += to.coefficient * rates(to.to, order);
-      rates(tie.tied, order) = rate;
-    }
+    if (tie.tied.unknown >= matrix_.rows || !has_rate(tie.tied, 1)) continue;
+    double rate = tie.by_itself;
+    for (const Tie::To& to : tie.to) rate += to.handed * rate_of(to.to);
+    blocks_[tie.tied.block].block->now.rate[tie.tied.state] = rate;
   }
-  for (NumberedBlock& b : blocks_)
-    for (auto* level : {&b.block->now.rate, &b.block->now.second_rate})
-      b.block->space->halo().update(*level, b.block->size);
-  settle_ties(std::vector<double>(ties_.size(), 0.0));
+  for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.rate, b.block->size);
+}
+
+void Assembler::settle_second_rates() {
+  if (!has_ties_) return;
+  for (const Tie& tie : ties_) {
+    if (tie.tied.unknown >= matrix_.rows || !has_rate(tie.tied, 2)) continue;
+    double rate = 0;
+    for (const Tie::To& to : tie.to)
+      rate += to.handed * blocks_[to.to.block].block->now.second_rate[to.to.state];
+    for (const Tie::Change& change : tie.changes)
+      rate += change.by_motion * rate_of(change.row) * rate_of(change.with);
+    blocks_[tie.tied.block].block->now.second_rate[tie.tied.state] = rate;
+  }
+  for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.second_rate, b.block->size);
 }
 
 std::vector<double> Assembler::with_tied(std::vector<double> increment) const {
@@ -204,8 +237,9 @@ std::vector<double> Assembler::with_tied(std::vector<double> increment) const {
   for (const Tie& tie : ties_) {
     if (tie.tied.unknown >= matrix_.rows) continue;
     increment[tie.tied.unknown] = 0;
+    const bool moves = has_rate(tie.tied, 1);
     for (const Tie::To& to : tie.to)
-      increment[tie.tied.unknown] += to.coefficient * changes[to.to.block][to.to.state];
+      increment[tie.tied.unknown] += (moves ? to.handed : to.coefficient) * changes[to.to.block][to.to.state];
   }
   return increment;
 }
@@ -229,6 +263,59 @@ void Assembler::add_to_row(int row, double entry, int column) {
   for (const Tie::To& to : ties_[relation].to) add(to.to.unknown, to.coefficient * entry);
 }
 
+/// Whether coefficients of one of the element's nodes change with the state.
+bool Assembler::element_turns() const {
+  if (!has_turning_ties_) return false;
+  return std::ranges::any_of(element_nodes_, [&](int node) {
+    if (node < 0 || !node_has_relations_[node]) return false;
+    const int first = graph_.node(node).first;
+    for (int u = first; u < first + graph_.node(node).size; ++u)
+      if (relation_[u] >= 0 && !ties_[relation_[u]].changes.empty()) return true;
+    return false;
+  });
+}
+
+/// The element's matrix by rates, at columns that are tied. The rate of what is tied is a sum of coefficients
+/// times rates: it changes with what the coefficients change with, and not with values as its own value does.
+void Assembler::scatter_rate_matrix(const ElementEvaluator& element, double rate_factor) {
+  const int* column_node = element_nodes_.data();
+  for (const auto& columns : element.side_blocks())
+    for (int b = 0; b < columns.nodes; ++b, ++column_node) {
+      if (*column_node < 0 || !node_has_relations_[*column_node]) continue;
+      for (int j = 0; j < columns.components; ++j) {
+        const int relation = relation_[graph_.node(*column_node).first + j];
+        if (relation < 0 || ties_[relation].changes.empty()) continue;
+        const double* column = &element.matrix()[static_cast<std::size_t>(columns.offset) +
+                                                 static_cast<std::size_t>(j) * columns.stride + b];
+        for (const Tie::To& to : ties_[relation].to)
+          add_column(element, column, rate_factor * (to.handed - to.coefficient), to.to.unknown);
+        for (const Tie::Change& change : ties_[relation].changes)
+          add_column(element, column, change.derivative * rate_of(change.row), change.with.unknown);
+      }
+    }
+}
+
+/// Adds a column of the element's matrix, times a factor, to that of an unknown.
+void Assembler::add_column(const ElementEvaluator& element, const double* column, double factor,
+                           int unknown) {
+  if (factor == 0 || unknown < 0) return;
+  const int* node = element_nodes_.data();
+  for (const auto& rows : element.side_blocks())
+    for (int a = 0; a < rows.nodes; ++a, ++node) {
+      if (*node < 0) continue;
+      for (int i = 0; i < rows.components; ++i) {
+        const double entry =
+            factor * column[static_cast<std::size_t>(rows.offset + i * rows.stride + a) * element.size()];
+        const int row = graph_.node(*node).first + i;
+        if (relation_[row] < 0)
+          add_to_row(row, entry, unknown);
+        else
+          for (const Tie::To& to : ties_[relation_[row]].to)
+            add_to_row(to.to.unknown, to.handed * entry, unknown);
+      }
+    }
+}
+
 /// Hands a tied unknown's part of the balance on to what it is tied to.
 void Assembler::hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent) {
   for (const Tie::To& to : tie.to) {
@@ -237,7 +324,8 @@ void Assembler::hand_on(const Tie& tie, double residual, double magnitude, bool 
   }
   // Its part changes with the state where the coefficients do.
   for (const Tie::Change& change : tie.changes)
-    if (with_tangent) add_to_row(change.row, change.derivative * residual, change.with);
+    if (with_tangent && change.row.unknown >= 0 && change.with.unknown >= 0)
+      add_to_row(change.row.unknown, change.derivative * residual, change.with.unknown);
 }
 
 }  // namespace seam

@@ -297,7 +297,7 @@ void ElementEvaluator::evaluate(const Compiled& term, const TimePoint& at, bool 
   for (std::size_t k = 0; k < term.operands.size(); ++k) {
     const BoundOperand& operand = term.operands[k];
     const int order = side_blocks_[operand.side_block].states->time_order[operand.offset];
-    factors[k][0] = at.initial_rates && order > 0 ? 0.0 : 1.0;
+    factors[k][0] = at.initial_rates && order > 0 ? 0.0 : at.value_factor;
     factors[k][1] = at.initial_rates ? (order == 1 ? 1.0 : 0.0) : at.rate_factor;
     factors[k][2] = at.initial_rates ? (order == 2 ? 1.0 : 0.0) : at.second_rate_factor;
   }

@@ -44,6 +44,8 @@ class ElementEvaluator {
   };
   [[nodiscard]] const std::vector<SideBlock>& side_blocks() const { return side_blocks_; }
   [[nodiscard]] int size() const { return size_; }
+  /// Whether a term reads second rates.
+  [[nodiscard]] bool has_inertia() const { return level_used_[static_cast<int>(Level::second_rate)]; }
 
   /// Evaluates element `index` at the present states.
   void compute(int index, const TimePoint& at, bool with_tangent);

@@ -88,8 +88,15 @@ void Ties::tie(const UnknownPlace& unknown, std::vector<TiedTo> to, double const
   added_.push_back({{unknown, std::move(to), constant, {}}, origin_});
 }
 
-void Ties::add_change(const UnknownPlace& row, const UnknownPlace& with, double derivative) {
-  added_.back().tie.changes.push_back({row, with, derivative});
+void Ties::add_change(const UnknownPlace& row, const UnknownPlace& with, double derivative,
+                      double by_motion) {
+  added_.back().tie.changes.push_back({row, with, derivative, by_motion});
+}
+
+void Ties::set_axes(const UnknownPlace& first, const Mat<3, 3, double>& axes) {
+  const auto same = [&](const Axes& known) { return known.first.key() == first.key(); };
+  if (first.owner == blocks_.front().field->mesh().communicator().rank() && std::ranges::none_of(axes_, same))
+    axes_.push_back({first, axes});
 }
 
 std::vector<Ties::Resolved> Ties::close() {
@@ -122,7 +129,7 @@ void Ties::gather() {
     for (const TiedTo& to : added.tie.to)
       lines.push_back({Line::to, to.unknown, {}, to.coefficient, to.handed});
     for (const Resolved::Change& change : added.tie.changes)
-      lines.push_back({Line::change, change.row, change.with, change.derivative});
+      lines.push_back({Line::change, change.row, change.with, change.derivative, change.by_motion});
     const std::string where =
         fmt::format("{}\n{}\n{}", added.where.file, added.where.line, added.where.column);
     places.insert(places.end(), where.begin(), where.end());
@@ -143,7 +150,7 @@ void Ties::gather() {
     } else if (line.kind == Line::to) {
       added_.back().tie.to.push_back({line.first, line.a, line.b});
     } else {
-      added_.back().tie.changes.push_back({line.first, line.second, line.a});
+      added_.back().tie.changes.push_back({line.first, line.second, line.a, line.b});
     }
   }
 }
@@ -174,7 +181,8 @@ void Ties::follow(Added& added, std::vector<const Added*>& under_way,
     for (const TiedTo& further : next->to)
       add(result.to, {further.unknown, to.coefficient * further.coefficient, to.handed * further.handed});
     for (const Resolved::Change& change : next->changes)
-      result.changes.push_back({change.row, change.with, to.handed * change.derivative});
+      result.changes.push_back(
+          {change.row, change.with, to.handed * change.derivative, to.handed * change.by_motion});
   }
   for (const Resolved::Change& change : added.tie.changes) {
     const std::vector<TiedTo> itself_row{{change.row, 1, 1}}, itself_with{{change.with, 1, 1}};
@@ -183,7 +191,8 @@ void Ties::follow(Added& added, std::vector<const Added*>& under_way,
     const Resolved *row = tie_of(change.row), *with = itself ? &result : tie_of(change.with);
     for (const TiedTo& r : row != nullptr ? row->to : itself_row)
       for (const TiedTo& w : with != nullptr ? with->to : itself_with)
-        result.changes.push_back({r.unknown, w.unknown, r.handed * change.derivative * w.coefficient});
+        result.changes.push_back({r.unknown, w.unknown, r.handed * change.derivative * w.coefficient,
+                                  r.handed * change.by_motion * w.handed});
   }
   added.tie = std::move(result);
   under_way.pop_back();
@@ -209,6 +218,7 @@ std::vector<Ties::Resolved> Ties::localise() {
     return *blocks_[block].field->blocks()[blocks_[block].block].space;
   };
   const auto need = [&](const UnknownPlace& place) {
+    if (place.is_clock()) return;
     if (space_of(place.block).local_node(place.node) >= 0) return;
     Space::ForeignNode node{place.node, place.owner, {}};
     std::copy_n(place.position, 3, node.position);
@@ -218,9 +228,14 @@ std::vector<Ties::Resolved> Ties::localise() {
     for (const Added& added : added_) require_free(added);
   });
   for (const Added& added : added_) {
-    for (const TiedTo& to : added.tie.to) concerned[to.unknown.block] = 1;
-    for (const Resolved::Change& change : added.tie.changes)
-      concerned[change.row.block] = concerned[change.with.block] = 1;
+    const auto concerns = [&](const UnknownPlace& place) {
+      if (!place.is_clock()) concerned[place.block] = 1;
+    };
+    for (const TiedTo& to : added.tie.to) concerns(to.unknown);
+    for (const Resolved::Change& change : added.tie.changes) {
+      concerns(change.row);
+      concerns(change.with);
+    }
     if (space_of(added.tie.unknown.block).local_node(added.tie.unknown.node) < 0) continue;
     for (const TiedTo& to : added.tie.to) need(to.unknown);
     for (const Resolved::Change& change : added.tie.changes) {

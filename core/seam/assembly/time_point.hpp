@@ -10,7 +10,9 @@ struct TimePoint {
   double time = 0;
   double step = 0;  ///< 0 in a static problem
   double theta = 1;
-  /// d(rate)/d(value) and d(second rate)/d(value).
+  /// What is differentiated changes values by this,
+  double value_factor = 1;
+  /// d(rate)/d(value) and d(second rate)/d(value): rates by these.
   double rate_factor = 0;
   double second_rate_factor = 0;
   /// Only for the consistent initial rates: differentiate with respect to the highest rate instead.

@@ -95,6 +95,20 @@ void Field::resize(Block& block) const {
   block.prescribed_value.resize(n, 0.0);
 }
 
+void Field::keep_momentum() {
+  for (Block& block : blocks_) {
+    if (block.momentum_of != nullptr || block.given) continue;
+    const auto add = [&](const char* what, int levels) -> StateArray<double>& {
+      return state_->add<double>({states_of(name_, block.given, block.space->order()) + "/" + what,
+                                  nodes_of(*block.space), block.size, levels});
+    };
+    StateArray<double>& rate = add("rate of handed momentum", 2);
+    block.now.momentum_rate = &rate.now();
+    block.old.momentum_rate = &rate.old();
+    block.momentum_of = &add("whose momentum", 1).now();
+  }
+}
+
 void Field::keep_mean_rates() {
   for (Block& block : blocks_) {
     const auto add = [&](const char* level) -> StateArray<double>& {

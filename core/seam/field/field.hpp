@@ -25,6 +25,9 @@ struct NodalState {
   std::vector<double>&value, &rate, &second_rate;
   /// Of value and rate over the step that led here; null unless the time scheme carries them on.
   std::vector<double>*mean_rate = nullptr, *mean_second_rate = nullptr;
+  /// Rate, as the time scheme carries it on, of the momentum that what is tied hands on; null where nothing
+  /// is.
+  std::vector<double>* momentum_rate = nullptr;
 };
 
 /// All unknowns of a field that share a Lagrange space; given ones have a block of their own. Those of a node
@@ -45,7 +48,9 @@ struct Block {
   std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
   std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
   std::vector<int> time_order;           ///< per component
-  std::vector<int> components;           ///< of each unknown
+  /// Per unknown of a local node: a number that tells what hands momentum on to it; null where nothing does.
+  std::vector<double>* momentum_of = nullptr;
+  std::vector<int> components;  ///< of each unknown
 
   /// @param nodes of a cell
   [[nodiscard]] bool knows_any(const int* nodes) const {
@@ -110,6 +115,8 @@ class Field {
   [[nodiscard]] StateStore& state() const { return *state_; }
   /// From now on states have mean rates. Before the first step.
   void keep_mean_rates();
+  /// From now on states have what others hand on to their unknowns, see NodalState::momentum_rate.
+  void keep_momentum();
   [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
   [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
 

@@ -62,8 +62,9 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
         }
       }
       problem_.communicator().sum(sums);
-      // Where something acts, its forces are the scale.
-      const double noise = std::sqrt(sums[1]) < nothing_acts * std::sqrt(sums[4]) ? std::sqrt(sums[4]) : 0;
+      // Where something acts, its forces are the scale; but iterations get no further than rounding.
+      const double rounded = std::sqrt(sums[4]);
+      const double noise = starts_ && std::sqrt(sums[1]) >= nothing_acts * rounded ? 0 : rounded;
       const double residual = std::sqrt(sums[0]),
                    scale = std::max(std::sqrt(sums[1]), noise / options_.tolerance);
       // Without any contribution the unknown's equations hold.

@@ -175,8 +175,17 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
   entry.mesh = mesh;
   entry.physics = std::move(physics);
   FieldBuilder builder(entry, domains_);
-  if (entry.physics->support() == Support::point) entry.mesh = point_mesh(*mesh, builder);
-  entry.field = std::make_unique<Field>(name, *entry.mesh, declared_unknowns(entry, mesh->dimension()),
+  std::vector<Unknown> unknowns = declared_unknowns(entry, mesh->dimension());
+  if (entry.physics->support() == Support::point) {
+    entry.mesh = point_mesh(*mesh, builder);
+    // Its mesh has no size: motions are measured by the radius of gyration of its shape.
+    const Moments m = builder.moments();
+    for (Unknown& unknown : unknowns)
+      if (unknown.role == UnknownRole::motion)
+        unknown.scale =
+            std::max(unknown.scale, std::sqrt((m.second[0][0] + m.second[1][1] + m.second[2][2]) / m.volume));
+  }
+  entry.field = std::make_unique<Field>(name, *entry.mesh, std::move(unknowns),
                                         entry.physics->separates_parts() ? most_sets : 1);
   state_.include(entry.field->state());
   entry.physics->build(builder);
@@ -228,7 +237,7 @@ void Problem::finish(double time, bool shape_derivatives) {
   for (const auto& [domain, terms] : domains_)
     assembler_->add(domain, terms, shape_derivatives ? Role::integrate : Role::integrate_at_rest);
   if (shape_derivatives) add_swept_volumes();
-  assembler_->tie(ties(time_point(time, 0, 1)));
+  update_ties(time_point(time, 0, 1));
   assembler_->rebuild();
 }
 
@@ -246,6 +255,44 @@ void Problem::carry_rates() {
   for (const InterfaceMeasure& measure : measures_)
     for (const InterfaceMeasure::PartIntegral& share : measure.integrals)
       carry_rates_of(share.quantity, share.domain->fields());
+}
+
+/// What others are tied to has the rates that these have. Collective.
+void Problem::carry_rates(const std::vector<Ties::Resolved>& ties) {
+  std::vector<Block*> blocks;
+  std::vector<std::size_t> first{0};
+  std::vector<double> order;  // [component of a block]
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks()) {
+      blocks.push_back(&block);
+      order.insert(order.end(), block.time_order.begin(), block.time_order.end());
+      first.push_back(order.size());
+    }
+  const auto order_of = [&](const UnknownPlace& place) -> double& {
+    return order[first[place.block] + place.component];
+  };
+  std::vector<double> takes_momentum(blocks.size(), 0.0);
+  for (const Ties::Resolved& tie : ties)
+    for (const TiedTo& to : tie.to) {
+      if (to.unknown.is_clock()) continue;
+      order_of(to.unknown) = std::max(order_of(to.unknown), order_of(tie.unknown));
+      if (!tie.changes.empty()) takes_momentum[to.unknown.block] = 1;
+    }
+  communicator_.max(order);
+  communicator_.max(takes_momentum);
+  std::size_t number = 0;
+  for (FieldEntry& entry : fields_)
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b)
+      if (takes_momentum[number++] > 0) entry.field->keep_momentum();
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    std::size_t c = 0;  // components of an unknown are alike
+    for (const int components : blocks[b]->components) {
+      const auto from = order.begin() + static_cast<std::ptrdiff_t>(first[b] + c);
+      std::fill_n(blocks[b]->time_order.begin() + static_cast<std::ptrdiff_t>(c), components,
+                  static_cast<int>(*std::max_element(from, from + components)));
+      c += static_cast<std::size_t>(components);
+    }
+  }
 }
 
 /// An interface that moves with a body sweeps over the volume of the field that it bounds.
@@ -335,21 +382,17 @@ void Problem::initialise(double time, bool impose_prescribed) {
     }
   if (!constraints_.empty() && impose_prescribed) {
     state_.advance();  // a constraint may look at the start of the step
-    std::vector<Ties::Resolved> start = ties(time_point(time, 0, 1));
-    // Where a motion is given in time, what goes along with it has a rate that is not known here.
-    const double soon = time + 1e-8 * (1 + std::abs(time));
-    const bool is_given =
-        !std::ranges::equal(start, ties(time_point(soon, 0, 1)), {}, &Ties::Resolved::constant,
-                            &Ties::Resolved::constant) ||
-        std::ranges::any_of(fields_, [](const FieldEntry& entry) {
-          return !entry.physics->displacement().empty() &&
-                 std::ranges::any_of(entry.conditions, [](const PrescribedCondition& condition) {
-                   return !condition.value.is_constant();
-                 });
-        });
-    if (assembler_->tie(std::move(start))) assembler_->rebuild();
+    if (update_ties(time_point(time, 0, 1))) assembler_->rebuild();
     assembler_->settle();
-    if (!communicator_.any(is_given))
+    assembler_->settle_rates();
+    // Rates of what is given in time are not known here.
+    const auto is_given = [](const FieldEntry& entry) {
+      return !entry.physics->displacement().empty() &&
+             std::ranges::any_of(entry.conditions, [](const PrescribedCondition& condition) {
+               return !condition.value.is_constant();
+             });
+    };
+    if (std::ranges::none_of(fields_, is_given))
       together(communicator_, [&] {
         for (const FieldEntry& entry : fields_)
           if (entry.physics->support() == Support::point && entry.field->blocks()[0].space->owned_nodes() > 0)
@@ -414,6 +457,12 @@ void Problem::begin_step(const TimePoint& at, double from) {
   for (FieldEntry& entry : fields_)
     if (entry.cut) entry.cut->begin_step();
   state_.advance();
+  if (at.step > 0 && !constraints_.empty()) {
+    TimePoint start = at;
+    start.time = from;
+    if (update_ties(start)) assembler_->rebuild();
+    assembler_->begin_momentum(start);
+  }
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       if (at.step == 0) continue;
@@ -429,11 +478,22 @@ void Problem::update_rates(const TimePoint& at) {
   if (at.step == 0) return;
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
+      const auto& carried = block.old.mean_rate == nullptr ? block.old.rate : *block.old.mean_rate;
+      update_rate(at, block, 1, block.now.value, block.old.value, carried, block.now.rate,
+                  block.now.mean_rate);
+    }
+  update_second_rates(at);
+}
+
+/// Rates of what is tied follow from those of what it is tied to: differences of its own values would be
+/// differences of differences of theirs, and nothing damps an error in these.
+void Problem::update_second_rates(const TimePoint& at) {
+  if (!constraints_.empty() && assembler_) assembler_->settle_rates();
+  for (FieldEntry& entry : fields_)
+    for (Block& block : entry.field->blocks()) {
       NodalState &now = block.now, &old = block.old;
-      const auto& carried = old.mean_rate == nullptr ? old.rate : *old.mean_rate;
-      update_rate(at, block, 1, now.value, old.value, carried, now.rate, now.mean_rate);
-      const auto& second_carried = old.mean_second_rate == nullptr ? old.second_rate : *old.mean_second_rate;
-      update_rate(at, block, 2, now.rate, old.rate, second_carried, now.second_rate, now.mean_second_rate);
+      const auto& carried = old.mean_second_rate == nullptr ? old.second_rate : *old.mean_second_rate;
+      update_rate(at, block, 2, now.rate, old.rate, carried, now.second_rate, now.mean_second_rate);
     }
 }
 
@@ -458,7 +518,10 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
 }
 
 std::vector<Ties::Resolved> Problem::ties(const TimePoint& at) {
-  if (constraints_.empty()) return {};
+  return constraints_.empty() ? std::vector<Ties::Resolved>() : ask_constraints(at).close();
+}
+
+Ties Problem::ask_constraints(const TimePoint& at) {
   std::vector<Field*> fields;
   for (FieldEntry& entry : fields_) fields.push_back(entry.field.get());
   Ties ties(fields);
@@ -468,7 +531,17 @@ std::vector<Ties::Resolved> Problem::ties(const TimePoint& at) {
         where, [&, &of = *constraint] { return "a constraint" + plugin_of(of); },
         [&, &of = *constraint] { of.tie(ties, at); });
   }
-  return ties.close();
+  return ties;
+}
+
+/// @return whether others are tied than before: then the system has to be rebuilt
+bool Problem::update_ties(const TimePoint& at) {
+  if (constraints_.empty()) return false;
+  Ties asked = ask_constraints(at);
+  const std::vector<Ties::Resolved> tied = asked.close();
+  if (!assembler_->tie(tied, asked.axes())) return false;
+  carry_rates(tied);
+  return true;
 }
 
 SpaceChange Problem::update_spaces(const TimePoint& at) {
@@ -481,10 +554,21 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;
-  if (!constraints_.empty() && assembler_->tie(ties(at))) change = SpaceChange::unknowns;
+  if (update_ties(at)) change = SpaceChange::unknowns;
   if (change != SpaceChange::none) assembler_->rebuild();
+  if (!constraints_.empty()) settle_rates(at);
   unfinished_ = SpaceChange::none;
   return change;
+}
+
+/// After relations have changed.
+void Problem::settle_rates(const TimePoint& at) {
+  if (at.initial_rates) {
+    assembler_->settle_rates();
+    assembler_->settle_second_rates();
+  } else if (at.step > 0) {
+    update_second_rates(at);
+  }
 }
 
 void Problem::keep_mean_rates() {

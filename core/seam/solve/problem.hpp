@@ -222,7 +222,12 @@ class Problem {
   static void set_given(FieldEntry& entry, double time);
   SpaceChange update_cuts(const TimePoint& at);
   void add_swept_volumes();
+  Ties ask_constraints(const TimePoint& at);
+  bool update_ties(const TimePoint& at);
   void carry_rates();
+  void carry_rates(const std::vector<Ties::Resolved>& ties);
+  void update_second_rates(const TimePoint& at);
+  void settle_rates(const TimePoint& at);
   Communicator communicator_;
   StateStore state_;
   std::vector<FieldEntry> fields_;

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What joints do to energy, momentum and angles, over many turns: against closed forms and other
+// integrations.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "scene_run.hpp"
+
+using namespace seam_cli_test;
+using std::numbers::pi;
+
+namespace {
+
+const std::string unchecked = "--set 'checks=[]' --set 'output.statistics={}' ";
+
+/// Largest deviation from the first entry.
+double drift(const std::vector<double>& series) {
+  double largest = 0;
+  for (const double value : series) largest = std::max(largest, std::abs(value - series.front()));
+  return largest;
+}
+
+std::string number(double value) { return std::to_string(value); }
+
+/// Times of steps that differ by up to half of their length, as `replay` takes them.
+std::string jittered(double end, double step) {
+  std::mt19937 generator(43);
+  std::uniform_real_distribution<double> part(0.5, 1.5);
+  std::string text = "time\n";
+  for (double t = part(generator) * step; t < end; t += part(generator) * step) text += number(t) + "\n";
+  return text + number(end) + "\n";
+}
+
+/// A bar that spins about a hinge off its middle, once a second.
+std::string spinning(double end, double step) {
+  return R"yaml(
+title: A bar that spins about a hinge
+dimension: 2
+plugins: [solid]
+parameters: {angle: 0.3, c: cos(angle), s: sin(angle)}
+meshes: {bar: {grid: {from: [0, -0.1], to: [1, 0.1], cells: [5, 1], rotate: {angle: "angle*180/pi", about: [0.2, 0]}}}}
+fields:
+  bar: {type: rigid_body, mesh: bar, density: 1, initial: {rotation_rate: [2*pi], velocity: ["-2*pi*0.3*s", "2*pi*0.3*c"]}}
+constraints: [{type: joint, kind: hinge, body: bar, at: [0.2, 0]}]
+solver: {newton: {tolerance: 1e-12}}
+output:
+  fields: false
+  probes: {angle: {field: bar, quantity: rotation}}
+time: {theta: 0.5, end: )yaml" +
+         number(end) + ", step: {initial: " + number(step);
+}
+
+}  // namespace
+
+TEST_CASE("a bar that spins about a hinge keeps its energy over fifty turns, whatever the steps") {
+  for (const double steps : {50.0, 100.0, 200.0}) {
+    const Run run(spinning(50, 1 / steps) + "}}\n", "--quiet");
+    CAPTURE(steps, run.done.output);
+    REQUIRE(run.done.code == 0);
+    const std::vector<double> energy = run.series("bar.kinetic_energy");
+    CHECK(drift(energy) < 1e-8 * energy.front());
+    CHECK(run.series("angle").back() == Approx(100 * pi).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("so it does with steps that differ") {
+  Folder folder;
+  const std::string times = folder.file("times.csv", jittered(50, 0.01));
+  const Run run(spinning(50, 0.01) + ", replay: " + times + "}}\n", "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const std::vector<double> energy = run.series("bar.kinetic_energy");
+  CHECK(drift(energy) < 1e-8 * energy.front());
+}
+
+namespace {
+
+/// Two bars, the second one hinged to the first one's end.
+std::string two_bars(const std::string& one, const std::string& two, const std::string& joints,
+                     const std::string& time) {
+  return R"yaml(
+title: Two bars
+dimension: 2
+plugins: [solid]
+meshes:
+  one: {grid: {from: [0, -0.05], to: [1, 0.05], cells: [10, 1]}}
+  two: {grid: {from: [1, -0.05], to: [1.8, 0.05], cells: [8, 1]}}
+fields:
+  one: {type: rigid_body, mesh: one, density: 10, )yaml" +
+         one + "}\n  two: {type: rigid_body, mesh: two, density: 20, " + two + "}\nconstraints:\n" + joints +
+         "  - {type: joint, kind: hinge, body: two, to: one, at: [1, 0]}\ntime: {" + time + R"yaml(}
+output:
+  fields: false
+  probes:
+    a: {field: one, quantity: rotation}
+    b: {field: two, quantity: rotation}
+    one: {field: one, quantity: translation}
+    two: {field: two, quantity: translation}
+    vone: {field: one, quantity: velocity}
+    vtwo: {field: two, quantity: velocity}
+    wone: {field: one, quantity: spin}
+    wtwo: {field: two, quantity: spin}
+  formulas:
+    mx: vone_x + 1.6*vtwo_x
+    my: vone_y + 1.6*vtwo_y
+    turning: (1.01*wone + 1.6*0.65*wtwo)/12 + (0.5 + one_x)*vone_y - one_y*vone_x + 1.6*((1.4 + two_x)*vtwo_y - two_y*vtwo_x)
+solver: {newton: {tolerance: 1e-12}}
+)yaml";
+}
+
+/// Angles at t = 2 less those of the equations of motion in minimal coordinates, by a Runge-Kutta method.
+std::array<double, 2> double_pendulum(bool moves, const std::string& scheme, double step) {
+  const std::string fall = "body_force: [0, \"-9.81\"]";
+  const Run run(two_bars(fall + (moves ? ", initial: {rotation_rate: [3], velocity: [0, 1.5]}" : ""),
+                         fall + (moves ? ", initial: {rotation_rate: [-2], velocity: [0, 2.2]}" : ""),
+                         "  - {type: joint, kind: hinge, body: one, at: [0, 0]}\n",
+                         scheme + ", end: 2, step: {initial: " + number(step) + "}"),
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  return {run.series("a").back() - (moves ? -2.9680758957 : -1.6096495021),
+          run.series("b").back() - (moves ? -1.8265973724 : -0.9321939959)};
+}
+
+}  // namespace
+
+TEST_CASE("a double pendulum swings right to second order") {
+  for (const bool moves : {false, true})
+    for (const std::string scheme : {"theta: 0.5", "scheme: bdf2"}) {
+      const auto coarse = double_pendulum(moves, scheme, 0.01), fine = double_pendulum(moves, scheme, 0.005);
+      CAPTURE(moves, scheme, coarse[0], coarse[1], fine[0], fine[1]);
+      for (int k = 0; k < 2; ++k) {
+        if (scheme == "theta: 0.5") CHECK(std::abs(coarse[k]) < (moves ? 1e-2 : 1e-3));
+        CHECK(std::abs(fine[k]) < std::abs(coarse[k]) / 3);
+      }
+    }
+}
+
+TEST_CASE("two free bars on a hinge keep momentum and energy") {
+  // Joined, one's middle at (0.5, 0), two's at (1.4, 0); masses 1 and 1.6.
+  const auto kept = [](const std::string& steps) {
+    const Run run(two_bars("initial: {rotation_rate: [3], velocity: [0, 0]}",
+                           "initial: {rotation_rate: [-2], velocity: [0, 0.7]}", "",
+                           "theta: 0.5, end: 20, step: {" + steps + "}"),
+                  "--quiet");
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    std::vector<double> energy = run.series("one.kinetic_energy");
+    const std::vector<double> second = run.series("two.kinetic_energy");
+    for (std::size_t k = 0; k < energy.size(); ++k) energy[k] += second[k];
+    CHECK(drift(run.series("mx")) < 1e-9);
+    CHECK(drift(run.series("my")) < 1e-9);
+    CHECK(drift(run.series("turning")) < 1e-9);
+    const auto half = energy.begin() + static_cast<std::ptrdiff_t>(energy.size() / 2);
+    CHECK(drift(energy) < 5e-4 * energy.front());
+    CHECK(drift({half, energy.end()}) < 5e-4 * energy.front());
+  };
+  kept("initial: 0.01");
+  Folder folder;
+  kept("initial: 0.01, replay: " + folder.file("times.csv", jittered(20, 0.01)));
+}
+
+TEST_CASE("a bead slides on a rod that is turned, as from the start, right to second order") {
+  // r = r_0 cosh t: at rest along the rod, and going round with it. What it follows in goes from y to x and
+  // back.
+  const auto off = [](const std::string& scheme, const std::string& motion, double step) {
+    const Run run(R"yaml(
+title: A bead on a rod that turns
+dimension: 2
+plugins: [solid]
+meshes:
+  rod: {grid: {from: [0, -0.05], to: [1, 0.05], cells: [10, 1]}}
+  bead: {grid: {from: [0.3, -0.05], to: [0.4, 0.05], cells: [1, 1]}}
+fields:
+  rod: {type: rigid_body, mesh: rod, density: 100}
+  bead: {type: rigid_body, mesh: bead, density: 100}
+constraints:
+  - {type: joint, kind: hinge, body: rod, at: [0, 0], motion: )yaml" +
+                      motion + R"yaml(}
+  - {type: joint, kind: slide, body: bead, to: rod, at: [0.35, 0], axis: [1, 0]}
+time: {)yaml" + scheme +
+                      ", end: 2, step: {initial: " + number(step) + R"yaml(}}
+output:
+  fields: false
+  probes: {d: {field: bead, quantity: translation}, v: {field: bead, quantity: velocity}, w: {field: bead, quantity: spin}}
+)yaml",
+                  "--quiet");
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    CHECK(run.series("v.y").front() == Approx(0.35));
+    CHECK(run.series("w").back() == Approx(1));
+    return std::hypot(run.series("d.x").back() + 0.35, run.series("d.y").back()) / (0.35 * std::cosh(2)) - 1;
+  };
+  for (const std::string scheme : {"scheme: bdf2", "theta: 0.5"}) {
+    const double coarse = off(scheme, "t", 0.02), fine = off(scheme, "t", 0.01);
+    CAPTURE(scheme, coarse, fine);
+    CHECK(std::abs(coarse) < 1e-3);
+    CHECK(std::abs(coarse / fine) > 3.2);
+  }
+}
+
+TEST_CASE("a hinge in space turns as far as it is driven in a step, to its place and with its rate") {
+  const Run run(R"yaml(
+title: A bar that a hinge drives about an oblique axis
+dimension: 3
+plugins: [solid]
+parameters: {s: sqrt(0.5)}
+meshes: {bar: {grid: {from: [0, -0.05, -0.05], to: [1, 0.05, 0.05], cells: [10, 1, 1], rotate: {angle: -45, axis: [0, 0, 1]}}}}
+fields: {bar: {type: rigid_body, mesh: bar, density: 100}}
+constraints: [{type: joint, kind: hinge, body: bar, at: [0, 0, 0], axis: [1, 1, 0], motion: 2*t + t^2}]
+time: {theta: 0.5, end: 2, step: {initial: 0.1}}
+output:
+  fields: false
+  probes: {c: {field: bar, quantity: translation}, v: {field: bar, quantity: velocity}, w: {field: bar, quantity: spin}}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const std::vector<double> time = run.series("time");
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const double t = time[k], angle = 2 * t + t * t, rate = 2 + 2 * t, h = std::sqrt(0.5);
+    CAPTURE(t);
+    // Turned about (1, 1, 0) from (1, -1, 0): towards (0, 0, -1).
+    CHECK(run.series("c.z")[k] == Approx(-0.5 * std::sin(angle)).margin(1e-9));
+    CHECK(run.series("c.x")[k] == Approx(0.5 * h * (std::cos(angle) - 1)).margin(1e-9));
+    CHECK(run.series("v.z")[k] == Approx(-0.5 * rate * std::cos(angle)).margin(1e-7));
+    CHECK(run.series("w.x")[k] == Approx(h * rate).margin(1e-7));
+    CHECK(run.series("w.y")[k] == Approx(h * rate).margin(1e-7));
+  }
+}
+
+TEST_CASE("a pendulum about an oblique axis in space keeps its energy") {
+  const Run run(R"yaml(
+title: A pendulum about an oblique axis
+dimension: 3
+plugins: [solid]
+meshes: {bar: {grid: {from: [0, -0.05, -0.05], to: [1, 0.05, 0.05], cells: [10, 1, 1], rotate: {angle: -45, axis: [0, 0, 1]}}}}
+fields: {bar: {type: rigid_body, mesh: bar, density: 100, body_force: [0, 0, "-9.81"]}}
+constraints: [{type: joint, kind: hinge, body: bar, at: [0, 0, 0], axis: [1, 1, 0]}]
+time: {theta: 0.5, end: 10, step: {initial: 0.01}}
+output:
+  fields: false
+  probes: {c: {field: bar, quantity: translation}}
+  formulas: {energy: bar_kinetic_energy + 9.81*c_z}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  CHECK(drift(run.series("energy")) < 2e-4 * 0.5 * 9.81);
+}
+
+TEST_CASE("a heavy top precesses steadily, right to second order") {
+  const auto late = [](const std::string& time, const std::string& step) {
+    return std::abs(
+        ShippedRun("solid/heavy_top", unchecked + time + "--set parameters.step=" + step)("late"));
+  };
+  for (const std::string time : {"", "--set 'time={scheme: bdf2, end: 2, step: {initial: \"${step}\"}}' "}) {
+    const double coarse = late(time, "0.004"), fine = late(time, "0.002");
+    CAPTURE(time, coarse, fine);
+    CHECK(coarse < (time.empty() ? 3e-3 : 1.3e-2));
+    CHECK(coarse / fine > 3.2);
+  }
+}
+
+TEST_CASE("a top is the same on all numbers of ranks, and resumed") {
+  const std::string quick = unchecked + "--set parameters.step=0.004 --set parameters.end=0.2 ";
+  const ShippedRun one("solid/heavy_top", quick);
+  CHECK(std::abs(one("spin.x")) > 10);
+  for (const char* ranks : {"2", "3"})
+    CHECK(difference(
+              one.csv,
+              ShippedRun("solid/heavy_top", quick, std::string("mpirun --oversubscribe -np ") + ranks).csv,
+              1e-6) < 1e-9);
+  const Folder folder;
+  const std::string run = "run " SEAM_SOURCE_DIR
+                          "/configs/solid/heavy_top.yaml --no-picture --quiet --folder " +
+                          (folder.path / "out").string() + " --set output.fields=false " + quick;
+  REQUIRE(seam(run + "--stop-after 20").code == 0);
+  REQUIRE(seam(run + "--resume").code == 0);
+  CHECK(difference(one.csv, folder.read("out/series.csv")) == 0);
+}
