@@ -30,14 +30,17 @@ SEAM_PLUGIN(registry) {
   registry.add<Physics>(
       "field", "rigid_body", solid::RigidBody::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<solid::RigidBody>(p); });
-  registry.publishes("field", "rigid_body",
-                     {{Published::As::quantity, "translation", "m", "of the centre"},
-                      {Published::As::quantity, "rotation", "rad",
-                       "an angle in the plane; in space angles about the body's own axes"},
-                      {Published::As::quantity, "orientation", "", "in space: quaternion, scalar last"},
-                      {Published::As::quantity, "angular_momentum", "kg m^2/s",
-                       "of a body with mass in space, about its centre"},
-                      {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});
+  registry.publishes(
+      "field", "rigid_body",
+      {{Published::As::quantity, "translation", "m", "of the centre"},
+       {Published::As::quantity, "rotation", "rad",
+        "an angle in the plane; in space angles about the body's own axes"},
+       {Published::As::quantity, "orientation", "", "in space: quaternion, scalar last"},
+       {Published::As::quantity, "angular_momentum", "kg m^2/s",
+        "of a body with mass in space, about its centre"},
+       {Published::As::quantity, "velocity", "m/s", "of the centre; of a body with mass or a dashpot"},
+       {Published::As::quantity, "spin", "rad/s", "angular velocity, in axes of space; likewise"},
+       {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});
   registry.add<Physics>(
       "field", "rigid_surface", solid::RigidSurface::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<solid::RigidSurface>(p); });

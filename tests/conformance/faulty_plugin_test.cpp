@@ -139,6 +139,8 @@ TEST_CASE("the kit finds relations between unknowns that are told wrongly, or re
        {values, handed, std::string("tangent: whole system"), std::string("rewind")})
     CHECK_THAT(right.output, Contains("ok    " + check));
   CHECK_THAT(with_constraint("slope").output, Contains("FAIL  " + values));
+  CHECK_THAT(with_constraint("rate").output,
+             Contains("FAIL  ties of unknowns: values change as their rates say"));
   const Result change = with_constraint("change");
   CHECK_THAT(change.output, Contains("FAIL  " + handed) && Contains("FAIL  tangent: whole system"));
   CHECK_THAT(with_constraint("remembers").output, Contains("FAIL  rewind"));

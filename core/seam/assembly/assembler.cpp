@@ -253,7 +253,7 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
     scatter_vector(element, with_tangent && !at.initial_rates);
     if (with_tangent) scatter_matrix(element);
     if (at.step > 0 && element_turns()) {
-      if (element.has_inertia()) assemble_momentum(group, e, at, with_tangent);
+      if (at.inertia_as_momentum && element.has_inertia()) assemble_momentum(group, e, at, with_tangent);
       if (with_tangent) {
         element.compute(e, by_rates(at, 1, at.rate_factor), true);
         scatter_rate_matrix(element, at.rate_factor);

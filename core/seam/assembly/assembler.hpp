@@ -161,7 +161,8 @@ class Assembler {
   void scatter_matrix(const ElementEvaluator& element);
   [[nodiscard]] bool element_turns() const;
   void scatter_rate_matrix(const ElementEvaluator& element, double rate_factor);
-  void add_column(const ElementEvaluator& element, const double* column, double factor, int unknown);
+  template <class Use>
+  void for_each_row(const ElementEvaluator& element, const double* column, const Use& use) const;
   /// The part of an element matrix that belongs to a pair of nodes.
   struct NodeBlock {
     const double* from;
@@ -176,6 +177,7 @@ class Assembler {
   void hold_related(bool with_tangent);
   void find_element_nodes(const Group& group, int element);
   void assemble_momentum(Group& group, int element, const TimePoint& at, bool with_tangent);
+  [[nodiscard]] double turned_part(const Tie& tie, const Tie::To& to) const;
   void hand_on_momentum(const ElementEvaluator& element, const Tie& tie, const double* row,
                         double rate_factor);
   void balance_momentum(const TimePoint& at);
@@ -219,6 +221,7 @@ class Assembler {
   /// What tied unknowns hand on to each local unknown: momentum, and the rate of it that second rates make.
   std::vector<double> local_momentum_, local_momentum_rate_;
   std::vector<Ties::Axes> axes_;
+  std::vector<int> turn_of_;  ///< per local unknown: about which of three axes that turn, or -1
   std::vector<std::vector<double>> momentum_at_start_;  ///< of the step, [block][unknown of a local node]
   std::vector<double> local_lift_;                      ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;

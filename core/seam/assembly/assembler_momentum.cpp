@@ -70,16 +70,38 @@ void Assembler::hand_on_momentum(const ElementEvaluator& element, const Tie& tie
     local_residual_[to.to.unknown] -= by_second_rates;
     local_magnitude_[to.to.unknown] += std::abs(rate * momentum);
     if (rate_factor == 0) continue;
+    const double factor = -rate_factor * (rate + turned_part(tie, to));
     const int* node = element_nodes_.data();
     for (const auto& columns : element.side_blocks())
       for (int b = 0; b < columns.nodes; ++b, ++node)
-        for (int j = 0; j < columns.components && *node >= 0; ++j)
-          if (const double entry = mass[columns.offset + j * columns.stride + b]; entry != 0)
-            add_to_row(to.to.unknown, -rate * rate_factor * entry, graph_.node(*node).first + j);
+        for (int j = 0; j < columns.components && *node >= 0; ++j) {
+          const double entry = factor * mass[columns.offset + j * columns.stride + b];
+          const int column = graph_.node(*node).first + j;
+          if (entry != 0 && relation_[column] < 0) add_to_row(to.to.unknown, entry, column);
+          for (std::size_t t = 0;
+               entry != 0 && relation_[column] >= 0 && t < ties_[relation_[column]].to.size(); ++t) {
+            const Tie::To& further = ties_[relation_[column]].to[t];
+            add_to_row(to.to.unknown, further.handed * entry, further.to.unknown);
+          }
+        }
   }
   for (const Tie::Change& change : tie.changes)
     if (rate_factor != 0 && change.row.unknown >= 0 && change.with.unknown >= 0)
       add_to_row(change.row.unknown, -change.derivative * force, change.with.unknown);
+}
+
+/// How what a tie hands on to an unknown goes on in axes that stay because the unknown's axes turn.
+double Assembler::turned_part(const Tie& tie, const Tie::To& to) const {
+  const int k = turn_of_[to.to.unknown];
+  if (k < 0) return 0;
+  const auto part = [&](int m) {
+    const auto found = std::ranges::find(tie.to, to.to.unknown - k + m,
+                                         [](const Tie::To& other) { return other.to.unknown; });
+    return found == tie.to.end() ? 0.0 : found->handed;
+  };
+  const auto rate = [&](int m) { return blocks_[to.to.block].block->now.rate[to.to.state - k + m]; };
+  const int l = (k + 1) % 3, m = (k + 2) % 3;
+  return rate(l) * part(m) - rate(m) * part(l);
 }
 
 /// Sets each three numbers of unknowns that turn about axes which turn themselves.
@@ -89,10 +111,8 @@ void Assembler::change_at_axes(const std::vector<double>& from, std::vector<doub
                                const Change& change) const {
   for (const Ties::Axes& axes : axes_) {
     const LocalUnknown first = find(axes.first);
-    if (first.unknown < 0) continue;
-    // What is left of turns that are tied to each other, as on a hinge, has no axes of its own.
-    if (std::any_of(&relation_[first.unknown], &relation_[first.unknown] + 3, [](int r) { return r >= 0; }))
-      continue;
+    if (first.unknown < 0 || first.unknown >= matrix_.rows) continue;
+    if (turn_of_[first.unknown] < 0) continue;
     Vec<3, double> rates, numbers;
     for (int k = 0; k < 3; ++k) {
       rates[k] = blocks_[first.block].block->now.rate[first.state + k];
@@ -163,7 +183,7 @@ void Assembler::begin_momentum(const TimePoint& at) {
 
 /// Adds the rates of what has been handed on.
 void Assembler::balance_momentum(const TimePoint& at) {
-  if (!has_turning_ties_ || at.step == 0) return;
+  if (!has_turning_ties_ || at.step == 0 || !at.inertia_as_momentum) return;
   graph_.collect_vector(local_momentum_);
   const std::vector<double> turned = turned_on(local_momentum_);
   in_axes_that_stay(local_momentum_);

@@ -103,6 +103,7 @@ void Assembler::number_ties() {
   has_ties_ = communicator_.any(!ties_.empty());
   has_turning_ties_ =
       communicator_.any(std::ranges::any_of(ties_, [](const Tie& tie) { return !tie.changes.empty(); }));
+  turn_of_.assign(relation_.size(), -1);
   if (!has_ties_) return;
   std::vector<std::vector<double>> scale;
   for (const NumberedBlock& b : blocks_) scale.push_back(scales(b));
@@ -111,6 +112,13 @@ void Assembler::number_ties() {
     ties_[k].scale = scale[tied.block][tied.state % blocks_[tied.block].block->size];
     relation_[ties_[k].tied.unknown] = static_cast<int>(k);
     node_has_relations_[node_of_[ties_[k].tied.unknown]] = 1;
+  }
+  for (const Ties::Axes& axes : axes_) {
+    const int first = find(axes.first).unknown;
+    // What is left of turns that are tied to each other, as on a hinge, has no axes of its own.
+    const auto is_tied = [&](int k) { return relation_[first + k] >= 0; };
+    if (first >= 0 && !is_tied(0) && !is_tied(1) && !is_tied(2))
+      for (int k = 0; k < 3; ++k) turn_of_[first + k] = k;
   }
 }
 
@@ -275,6 +283,26 @@ bool Assembler::element_turns() const {
   });
 }
 
+/// Rows that a column of the element's matrix goes to, and its entries there.
+template <class Use>
+void Assembler::for_each_row(const ElementEvaluator& element, const double* column, const Use& use) const {
+  const int* node = element_nodes_.data();
+  for (const auto& rows : element.side_blocks())
+    for (int a = 0; a < rows.nodes; ++a, ++node) {
+      if (*node < 0) continue;
+      for (int i = 0; i < rows.components; ++i) {
+        const double entry =
+            column[(static_cast<std::size_t>(rows.offset) + static_cast<std::size_t>(i) * rows.stride + a) *
+                   element.size()];
+        const int row = graph_.node(*node).first + i;
+        if (relation_[row] < 0)
+          use(row, entry);
+        else
+          for (const Tie::To& to : ties_[relation_[row]].to) use(to.to.unknown, to.handed * entry);
+      }
+    }
+}
+
 /// The element's matrix by rates, at columns that are tied. The rate of what is tied is a sum of coefficients
 /// times rates: it changes with what the coefficients change with, and not with values as its own value does.
 void Assembler::scatter_rate_matrix(const ElementEvaluator& element, double rate_factor) {
@@ -283,35 +311,21 @@ void Assembler::scatter_rate_matrix(const ElementEvaluator& element, double rate
     for (int b = 0; b < columns.nodes; ++b, ++column_node) {
       if (*column_node < 0 || !node_has_relations_[*column_node]) continue;
       for (int j = 0; j < columns.components; ++j) {
-        const int relation = relation_[graph_.node(*column_node).first + j];
+        const int unknown = graph_.node(*column_node).first + j, relation = relation_[unknown];
         if (relation < 0 || ties_[relation].changes.empty()) continue;
         const double* column = &element.matrix()[static_cast<std::size_t>(columns.offset) +
                                                  static_cast<std::size_t>(j) * columns.stride + b];
+        const double way = -rate_factor * pending_[unknown];
+        for_each_row(element, column, [&](int row, double entry) { local_lift_[row] += way * entry; });
+        const auto add = [&](double factor, int with) {
+          if (factor != 0 && with >= 0)
+            for_each_row(element, column,
+                         [&](int row, double entry) { add_to_row(row, factor * entry, with); });
+        };
         for (const Tie::To& to : ties_[relation].to)
-          add_column(element, column, rate_factor * (to.handed - to.coefficient), to.to.unknown);
+          add(rate_factor * (to.handed - to.coefficient), to.to.unknown);
         for (const Tie::Change& change : ties_[relation].changes)
-          add_column(element, column, change.derivative * rate_of(change.row), change.with.unknown);
-      }
-    }
-}
-
-/// Adds a column of the element's matrix, times a factor, to that of an unknown.
-void Assembler::add_column(const ElementEvaluator& element, const double* column, double factor,
-                           int unknown) {
-  if (factor == 0 || unknown < 0) return;
-  const int* node = element_nodes_.data();
-  for (const auto& rows : element.side_blocks())
-    for (int a = 0; a < rows.nodes; ++a, ++node) {
-      if (*node < 0) continue;
-      for (int i = 0; i < rows.components; ++i) {
-        const double entry =
-            factor * column[static_cast<std::size_t>(rows.offset + i * rows.stride + a) * element.size()];
-        const int row = graph_.node(*node).first + i;
-        if (relation_[row] < 0)
-          add_to_row(row, entry, unknown);
-        else
-          for (const Tie::To& to : ties_[relation_[row]].to)
-            add_to_row(to.to.unknown, to.handed * entry, unknown);
+          add(change.derivative * rate_of(change.row), change.with.unknown);
       }
     }
 }

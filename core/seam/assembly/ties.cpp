@@ -95,8 +95,7 @@ void Ties::add_change(const UnknownPlace& row, const UnknownPlace& with, double 
 
 void Ties::set_axes(const UnknownPlace& first, const Mat<3, 3, double>& axes) {
   const auto same = [&](const Axes& known) { return known.first.key() == first.key(); };
-  if (first.owner == blocks_.front().field->mesh().communicator().rank() && std::ranges::none_of(axes_, same))
-    axes_.push_back({first, axes});
+  if (std::ranges::none_of(axes_, same)) axes_.push_back({first, axes});
 }
 
 std::vector<Ties::Resolved> Ties::close() {

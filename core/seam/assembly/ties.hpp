@@ -81,7 +81,7 @@ class Ties {
     UnknownPlace first;
     Mat<3, 3, double> turn;
   };
-  /// Those of unknowns that this rank owns.
+  /// As they were set on this rank.
   [[nodiscard]] const std::vector<Axes>& axes() const { return axes_; }
   /// Brings the ties of all ranks together, follows chains and lets nodes that are tied to become known where
   /// they are needed. Collective.

@@ -17,6 +17,9 @@ struct TimePoint {
   double second_rate_factor = 0;
   /// Only for the consistent initial rates: differentiate with respect to the highest rate instead.
   bool initial_rates = false;
+  /// Inertia of what is tied by coefficients that change is handed on as the rate of momentum; else as
+  /// forces.
+  bool inertia_as_momentum = true;
   /// Points of moving interfaces stay where they are: the tangent leaves their motion out.
   bool frozen = false;
 };

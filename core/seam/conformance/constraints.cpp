@@ -53,7 +53,7 @@ struct Given {
 Given given(const Resolved& tie, const PerUnknown& values) {
   Given result{tie.constant, {}};
   for (const TiedTo& to : tie.to) {
-    result.value += to.coefficient * values(to.unknown);
+    if (!to.unknown.is_clock()) result.value += to.coefficient * values(to.unknown);
     result.handed[to.unknown.key()] += to.handed;
   }
   return result;
@@ -63,11 +63,23 @@ Given given(const Resolved& tie, const PerUnknown& values) {
 Given change(const Resolved& tie, const PerUnknown& direction) {
   Given result;
   for (const TiedTo& to : tie.to) {
-    result.value += to.coefficient * direction(to.unknown);
+    if (!to.unknown.is_clock()) result.value += to.coefficient * direction(to.unknown);
     result.handed.emplace(to.unknown.key(), 0.0);
   }
   for (const Resolved::Change& c : tie.changes)
-    result.handed[c.row.key()] += c.derivative * direction(c.with);
+    if (!c.with.is_clock()) result.handed[c.row.key()] += c.derivative * direction(c.with);
+  return result;
+}
+
+/// The same, as rates say: of motions that take a time.
+Given motion(const Resolved& tie, const PerUnknown& motions, double time) {
+  const auto of = [&](const UnknownPlace& place) { return place.is_clock() ? time : motions(place); };
+  Given result;
+  for (const TiedTo& to : tie.to) {
+    result.value += to.handed * of(to.unknown);
+    result.handed.emplace(to.unknown.key(), 0.0);
+  }
+  for (const Resolved::Change& c : tie.changes) result.handed[c.row.key()] += c.by_motion * of(c.with);
   return result;
 }
 
@@ -76,14 +88,8 @@ struct Errors {
   double value = 0, handed = 0, values = 1e-300, shares = 1e-300;
 };
 
-}  // namespace
-
-std::vector<ConformanceCheck> check_constraints(Problem& problem, const TimePoint& at) {
-  constexpr double tolerance = 1e-6, step = 1e-4;
-  const std::vector<Resolved> here = problem.ties(at);
-  if (here.empty()) return {};
-  const StateStore::Snapshot before = problem.state().snapshot(at.time);
-  const std::vector<Block*> blocks = blocks_of(problem);
+/// A direction to go in, of the sizes that unknowns have; what is tied is left at 0.
+PerUnknown random_direction(Problem& problem, const std::vector<Block*>& blocks) {
   PerUnknown direction(blocks);
   std::mt19937 generator(20261);
   std::uniform_real_distribution<double> part(-1, 1);
@@ -102,51 +108,99 @@ std::vector<ConformanceCheck> check_constraints(Problem& problem, const TimePoin
     }
     block += entry.field->blocks().size();
   }
-  // What is tied follows.
-  for (const Resolved& tie : here) {
-    double& of_tied = direction.at(tie.unknown);
-    of_tied = 0;
-    for (const TiedTo& to : tie.to) of_tied += to.coefficient * direction(to.unknown);
-  }
-  std::vector<Resolved> ties[2];
+  return direction;
+}
+
+/// Ties on both sides of the present states, along a direction that takes a time.
+struct Sides {
   std::vector<Given> found[2];
+  bool same = true;  ///< whether others are tied there
+};
+
+constexpr double step = 1e-4;
+
+Sides go(Problem& problem, const TimePoint& at, const std::vector<Resolved>& here,
+         const PerUnknown& direction, double time) {
+  const StateStore::Snapshot before = problem.state().snapshot(at.time);
+  const std::vector<Block*> blocks = blocks_of(problem);
+  Sides sides;
   for (const int side : {0, 1}) {
     problem.state().restore(before);
+    const double part = side == 0 ? -step : step;
     PerUnknown values(blocks);
     for (std::size_t b = 0; b < blocks.size(); ++b)
       for (std::size_t i = 0; i < blocks[b]->now.value.size(); ++i)
-        values.of_block[b][i] = blocks[b]->now.value[i] +=
-            (side == 0 ? -step : step) * direction.of_block[b][i];
+        values.of_block[b][i] = blocks[b]->now.value[i] += part * direction.of_block[b][i];
     problem.update_rates(at);
-    ties[side] = problem.ties(at);
-    for (const Resolved& tie : ties[side]) found[side].push_back(given(tie, values));
+    TimePoint there = at;
+    there.time += part * time;
+    const std::vector<Resolved> ties = problem.ties(there);
+    const auto key = [](const Resolved& tie) { return tie.unknown.key(); };
+    sides.same = sides.same && std::ranges::equal(ties, here, {}, key, key);
+    for (const Resolved& tie : ties) sides.found[side].push_back(given(tie, values));
   }
   problem.state().restore(before);
-  const std::string name = "ties of unknowns";
-  const auto same = [](const Resolved& a, const Resolved& b) { return a.unknown.key() == b.unknown.key(); };
-  if (!std::ranges::equal(ties[0], ties[1], same) || !std::ranges::equal(ties[0], here, same))
-    return {
-        {name, ConformanceCheck::Outcome::skipped, "others are tied beside the state that the scene has"}};
+  return sides;
+}
+
+Errors compare(const Sides& sides, const std::vector<Given>& expected) {
   Errors errors;
-  for (std::size_t k = 0; k < here.size(); ++k) {
-    const Given expected = change(here[k], direction);
-    const double difference = (found[1][k].value - found[0][k].value) / (2 * step);
-    errors.value = std::max(errors.value, std::abs(difference - expected.value));
-    errors.values = std::max({errors.values, std::abs(difference), std::abs(expected.value)});
-    for (const auto& [key, derivative] : expected.handed) {
-      const double share = (found[1][k].handed[key] - found[0][k].handed[key]) / (2 * step);
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    const Given &low = sides.found[0][k], &high = sides.found[1][k];
+    const double difference = (high.value - low.value) / (2 * step);
+    errors.value = std::max(errors.value, std::abs(difference - expected[k].value));
+    errors.values = std::max({errors.values, std::abs(difference), std::abs(expected[k].value)});
+    for (const auto& [key, derivative] : expected[k].handed) {
+      const double below = low.handed.contains(key) ? low.handed.at(key) : 0,
+                   above = high.handed.contains(key) ? high.handed.at(key) : 0;
+      const double share = (above - below) / (2 * step);
       errors.handed = std::max(errors.handed, std::abs(share - derivative));
-      errors.shares =
-          std::max({errors.shares, std::abs(share), std::abs(derivative), std::abs(found[0][k].handed[key])});
+      errors.shares = std::max({errors.shares, std::abs(share), std::abs(derivative), std::abs(below)});
     }
   }
-  const auto check = [&](const std::string& what, double error, double size) {
-    return conformance_check(
-        name + ": " + what, error <= tolerance * size,
-        fmt::format("{:.1e} relative over {} ties, at most {:.0e}", error / size, here.size(), tolerance));
-  };
-  return {check("values change as the coefficients say", errors.value, errors.values),
-          check("what is handed on changes as said", errors.handed, errors.shares)};
+  return errors;
+}
+
+}  // namespace
+
+std::vector<ConformanceCheck> check_constraints(Problem& problem, const TimePoint& at) {
+  constexpr double tolerance = 1e-6;
+  const std::string name = "ties of unknowns";
+  const StateStore::Snapshot before = problem.state().snapshot(at.time);
+  PerUnknown direction = random_direction(problem, blocks_of(problem));
+  std::vector<ConformanceCheck> checks;
+  // As values change, and as things move: from the start of a step, where turns of bodies in space are what
+  // their angles change by.
+  for (const bool moves : {false, true}) {
+    if (moves) problem.state().advance();
+    const double time = moves ? (at.step > 0 ? at.step : 1) : 0;
+    const std::vector<Resolved> here = problem.ties(at);
+    if (here.empty()) return {};
+    std::vector<Given> expected;
+    for (const Resolved& tie : here) direction.at(tie.unknown) = 0;  // it follows
+    for (const Resolved& tie : here)
+      direction.at(tie.unknown) = (moves ? motion(tie, direction, time) : change(tie, direction)).value;
+    for (const Resolved& tie : here)
+      expected.push_back(moves ? motion(tie, direction, time) : change(tie, direction));
+    const Sides sides = go(problem, at, here, direction, time);
+    if (!sides.same) {
+      checks.push_back(
+          {name, ConformanceCheck::Outcome::skipped, "others are tied beside the state that the scene has"});
+      break;
+    }
+    const Errors errors = compare(sides, expected);
+    const auto check = [&](const std::string& what, double error, double size) {
+      checks.push_back(conformance_check(
+          name + ": " + what, error <= tolerance * size,
+          fmt::format("{:.1e} relative over {} ties, at most {:.0e}", error / size, here.size(), tolerance)));
+    };
+    check(moves ? "values change as their rates say" : "values change as the coefficients say", errors.value,
+          errors.values);
+    check(moves ? "what is handed on changes as motions say" : "what is handed on changes as said",
+          errors.handed, errors.shares);
+  }
+  problem.state().restore(before);
+  return checks;
 }
 
 }  // namespace seam

@@ -142,6 +142,9 @@ std::vector<double> unknown_scales(const Problem& problem) {
 
 TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoint& at, bool spaces_follow) {
   constexpr int directions = 3;
+  // A term alone knows of no relations.
+  const bool alone = &assembler != &problem.assembler();
+  if (alone) problem.update_rates(at, false);
   const StateStore::Snapshot here = problem.state().snapshot(at.time);
   assembler.assemble(at, true);
   const std::vector<double> magnitude = assembler.magnitude();
@@ -151,7 +154,8 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
   std::uniform_real_distribution<double> part(-1, 1);
   // The problem's own assembler is rebuilt with the spaces.
   const auto follow = [&] {
-    if (spaces_follow && &assembler != &problem.assembler()) assembler.rebuild();
+    if (spaces_follow && alone) assembler.rebuild();
+    if (spaces_follow && alone) problem.update_rates(at, false);
   };
   TangentError worst;
   for (std::size_t u = 0; u < unknowns.size(); ++u)
@@ -171,7 +175,7 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
         problem.state().restore(here);
         if (spaces_follow) problem.update_spaces(at);  // and with them the numbering of the direction
         assembler.add_increment(direction, step);
-        problem.update_rates(at);
+        problem.update_rates(at, !alone);
         if (spaces_follow && problem.update_spaces(at) == SpaceChange::unknowns)
           return std::vector<double>(direction.size(), std::nan(""));
         follow();
@@ -192,7 +196,10 @@ TangentError tangent_error(Problem& problem, Assembler& assembler, const TimePoi
   return worst;
 }
 
-std::vector<ConformanceCheck> check_tangents(Problem& problem, const TimePoint& at) {
+std::vector<ConformanceCheck> check_tangents(Problem& problem, const TimePoint& when) {
+  TimePoint at = when;
+  // As momentum it is differentiated to leading order in the angles of a step.
+  at.inertia_as_momentum = false;
   free_prescribed(problem, at);
   shake(problem, at);
   std::vector<ConformanceCheck> checks{

@@ -103,14 +103,15 @@ void Newton::freeze(bool frozen) {
   at_.frozen = frozen_ = frozen;
   if (frozen) {
     ++freezes_;
-    since_freezing_ = 0;
+    frozen_at_ = motions();
   } else {
     freed_ = report_.history.size();
   }
 }
 
-double Newton::distance(double factor) const {
-  double most = 0;
+/// What moves bodies, of this rank's own nodes, whether it follows from others or not.
+std::vector<double> Newton::motions() const {
+  std::vector<double> result;
   for (const FieldEntry& entry : problem_.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
       if (unknown.role != UnknownRole::motion) continue;
@@ -118,11 +119,17 @@ double Newton::distance(double factor) const {
       const Block& block = entry.field->blocks()[place.block];
       for (int node = 0; node < block.space->owned_nodes(); ++node)
         for (int c = 0; c < place.components; ++c)
-          if (const int row = problem_.assembler().row(*entry.field, place.block, node, place.offset + c);
-              row >= 0)
-            most = std::max(most, std::abs(factor * increment_[row]));
+          result.push_back(block.now.value[static_cast<std::size_t>(node) * block.size + place.offset + c]);
     }
-  return problem_.communicator().max(most);
+  return result;
+}
+
+/// How far anything has moved, m. Collective.
+double Newton::way_since_freezing() const {
+  const std::vector<double> now = motions();
+  double longest = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) longest = std::max(longest, std::abs(now[i] - frozen_at_[i]));
+  return problem_.communicator().max(longest);
 }
 
 void Newton::begin(const TimePoint& step) {
@@ -160,7 +167,6 @@ bool Newton::iterate() {
     return fail(fmt::format("no part of the increment of iteration {} leads to an admissible state{}",
                             iteration_, not_finite_));
   }
-  if (frozen_ && !increment_.empty()) since_freezing_ += distance(entry.damping);
   // After a renumbering the increment's rows mean nothing any more.
   if (entry.space_changed) increment_.clear();
   const Size last = size_;
@@ -212,12 +218,13 @@ bool Newton::finish() {
     ++iteration_;
     return true;
   }
-  report_.converged = !frozen_ || since_freezing_ <= far_;
+  const double way = frozen_ ? way_since_freezing() : 0;
+  report_.converged = !frozen_ || way <= far_;
   report_.frozen = frozen_;
   if (report_.converged) return false;
   return fail(fmt::format(
-      "iterations cycle, and without an update of the cut bodies go on by {:.2g} m, more than {:.2g} m",
-      since_freezing_, far_));
+      "iterations cycle, and without an update of the cut bodies go on by {:.2g} m, more than {:.2g} m", way,
+      far_));
 }
 
 /// Adds the increment, or a part of it, lets spaces follow and assembles there. False when no part is
@@ -241,14 +248,21 @@ bool Newton::take(NewtonIteration& entry) {
     }
     if (!options_.damping) return false;
     problem_.state().restore(before);
-    if (!frozen_) problem_.update_spaces(at_);  // and with them the numbering that the increment has
+    // And with them the numbering that the increment has.
+    if (frozen_)
+      problem_.update_relations(at_);
+    else
+      problem_.update_spaces(at_);
   }
   return false;
 }
 
 /// Lets spaces follow the state. False when bodies moved too far for that; a part of the way may do.
 bool Newton::follow(NewtonIteration& entry) {
-  if (frozen_) return true;
+  if (frozen_) {
+    entry.space_changed = problem_.update_relations(at_);
+    return true;
+  }
   try {
     entry.space_changed = problem_.update_spaces(at_) == SpaceChange::unknowns;
     return true;

@@ -89,7 +89,8 @@ class Newton {
   [[nodiscard]] bool cycles() const;
   void freeze(bool frozen);
   /// How far the last increment moved anything, m.
-  [[nodiscard]] double distance(double factor) const;
+  [[nodiscard]] std::vector<double> motions() const;
+  [[nodiscard]] double way_since_freezing() const;
   Problem& problem_;
   LinearSolver& solver_;
   NewtonOptions options_;
@@ -103,11 +104,11 @@ class Newton {
   bool starts_ = true;  ///< at states without an increment that led there
   bool frozen_ = false;
   int freezes_ = 0;
-  std::size_t freed_ = 0;      ///< the iteration from which on the cut has followed
-  double since_freezing_ = 0;  ///< how far anything has moved, m
-  double far_ = 0;             ///< how far it may, m
-  long long held_ = -1;        ///< pattern for which it is known that nothing changes without resistance
-  std::string not_finite_;     ///< what was not in the last state that was tried
+  std::size_t freed_ = 0;          ///< the iteration from which on the cut has followed
+  std::vector<double> frozen_at_;  ///< motions() when the cut was frozen
+  double far_ = 0;                 ///< how far it may, m
+  long long held_ = -1;            ///< pattern for which it is known that nothing changes without resistance
+  std::string not_finite_;         ///< what was not in the last state that was tried
 };
 
 /// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.

@@ -474,7 +474,7 @@ void Problem::begin_step(const TimePoint& at, double from) {
   update_rates(at);
 }
 
-void Problem::update_rates(const TimePoint& at) {
+void Problem::update_rates(const TimePoint& at, bool relations) {
   if (at.step == 0) return;
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
@@ -482,13 +482,13 @@ void Problem::update_rates(const TimePoint& at) {
       update_rate(at, block, 1, block.now.value, block.old.value, carried, block.now.rate,
                   block.now.mean_rate);
     }
-  update_second_rates(at);
+  update_second_rates(at, relations);
 }
 
 /// Rates of what is tied follow from those of what it is tied to: differences of its own values would be
 /// differences of differences of theirs, and nothing damps an error in these.
-void Problem::update_second_rates(const TimePoint& at) {
-  if (!constraints_.empty() && assembler_) assembler_->settle_rates();
+void Problem::update_second_rates(const TimePoint& at, bool relations) {
+  if (relations && !constraints_.empty() && assembler_) assembler_->settle_rates();
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       NodalState &now = block.now, &old = block.old;
@@ -569,6 +569,13 @@ void Problem::settle_rates(const TimePoint& at) {
   } else if (at.step > 0) {
     update_second_rates(at);
   }
+}
+
+bool Problem::update_relations(const TimePoint& at) {
+  const bool changed = update_ties(at);
+  if (changed) assembler_->rebuild();
+  if (!constraints_.empty()) settle_rates(at);
+  return changed;
 }
 
 void Problem::keep_mean_rates() {

@@ -196,11 +196,15 @@ class Problem {
   /// From now on states keep mean rates, and rates follow from them: with two_step_theta() the backward
   /// difference formula of second order (BDF2). Before the first step.
   void keep_mean_rates();
-  /// Lets rates follow the values as the time scheme says.
-  void update_rates(const TimePoint& at);
+  /// Lets rates follow the values as the time scheme says, and those of what is tied from the others.
+  /// @param relations whether what is tied counts: without, the scheme says all rates
+  void update_rates(const TimePoint& at, bool relations = true);
   /// Cuts meshes anew, runs the space updates and rebuilds where needed. Collective.
   /// @throws StepRefused when a body moved further than states can be carried
   SpaceChange update_spaces(const TimePoint& at);
+  /// The same of relations between unknowns alone, where cuts stay as they are. Collective.
+  /// @return whether unknowns were numbered anew
+  bool update_relations(const TimePoint& at);
   /// Where the level of an unknown is fixed at a node, as that of the pressure in a closed part of a fluid,
   /// the node's equation is given up for it. It holds all the same if what is prescribed goes together: what
   /// is left of it flows in or out at that node, where there is nothing. From the last assembly, with its
@@ -226,7 +230,7 @@ class Problem {
   bool update_ties(const TimePoint& at);
   void carry_rates();
   void carry_rates(const std::vector<Ties::Resolved>& ties);
-  void update_second_rates(const TimePoint& at);
+  void update_second_rates(const TimePoint& at, bool relations = true);
   void settle_rates(const TimePoint& at);
   Communicator communicator_;
   StateStore state_;

@@ -135,8 +135,9 @@ class Crooked final : public Constraint {
     const double slope = how_ == "slope" ? 1 + 2 * v : 1 + v;
     const double value = v + v * v / 2 + (how_ == "remembers" ? 1e-3 * before_ : 0);
     before_ = v;
-    ties.tie(ties.place(*field_, 0, tied, 0), {{to, slope, slope}}, value - slope * v);
-    if (how_ != "change") ties.add_change(to, to, how_ == "slope" ? 2 : 1);
+    ties.tie(ties.place(*field_, 0, tied, 0), {{to, slope, how_ == "rate" ? 2 * slope : slope}},
+             value - slope * v);
+    if (how_ != "change") ties.add_change(to, to, how_ == "slope" || how_ == "rate" ? 2 : 1);
   }
 
  private:
