@@ -18,6 +18,8 @@ namespace {
 constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
 /// In rounding errors of the residual: forces below that are none. A strain of 1e-10 has larger ones.
 constexpr double nothing_acts = 1e6;
+/// Relative residual that may be one of rounding where others act.
+constexpr double hardly_more = 1e-10;
 /// Iterations in which unknowns may come and go; then they may only come, lest a step cycle between two sets
 /// of them (thesis 6.3.2).
 constexpr int free_iterations = 3;
@@ -63,10 +65,11 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
       }
       problem_.communicator().sum(sums);
       // Where something acts, its forces are the scale; but iterations get no further than rounding.
-      const double rounded = std::sqrt(sums[4]);
-      const double noise = starts_ && std::sqrt(sums[1]) >= nothing_acts * rounded ? 0 : rounded;
-      const double residual = std::sqrt(sums[0]),
-                   scale = std::max(std::sqrt(sums[1]), noise / options_.tolerance);
+      const double residual = std::sqrt(sums[0]), rounded = std::sqrt(sums[4]), forces = std::sqrt(sums[1]);
+      const bool may_be_rounding =
+          forces < nothing_acts * rounded || (!starts_ && residual < hardly_more * forces);
+      const double noise = may_be_rounding ? rounded : 0,
+                   scale = std::max(forces, noise / options_.tolerance);
       // Without any contribution the unknown's equations hold.
       const double relative = scale > 0 ? residual / scale : 0.0;
       if (size.worst.empty() || relative > size.residual) {

@@ -134,7 +134,7 @@ class Crooked final : public Constraint {
     const UnknownPlace to = ties.place(*field_, 0, master, 0);
     const double slope = how_ == "slope" ? 1 + 2 * v : 1 + v;
     const double value = v + v * v / 2 + (how_ == "remembers" ? 1e-3 * before_ : 0);
-    before_ = v;
+    before_ = v + before_ / 2;  // of more than the last time it was asked
     ties.tie(ties.place(*field_, 0, tied, 0), {{to, slope, how_ == "rate" ? 2 * slope : slope}},
              value - slope * v);
     if (how_ != "change") ties.add_change(to, to, how_ == "slope" || how_ == "rate" ? 2 : 1);
