@@ -64,6 +64,9 @@ TEST_CASE("a bar that spins about a hinge keeps its energy over fifty turns, wha
     const std::vector<double> energy = run.series("bar.kinetic_energy");
     CHECK(drift(energy) < 1e-8 * energy.front());
     CHECK(run.series("angle").back() == Approx(100 * pi).epsilon(1e-8));
+    // The way that the bar's middle has still to go is no rate of it.
+    const auto summary = nlohmann::json::parse(run.folder.read("out/summary.json"));
+    for (const nlohmann::json& step : summary.at("newton")) CHECK(step["iterations"].size() <= 3);
   }
 }
 
@@ -183,7 +186,7 @@ constraints:
                       motion + R"yaml(}
   - {type: joint, kind: slide, body: bead, to: rod, at: [0.35, 0], axis: [1, 0]}
 time: {)yaml" + scheme +
-                      ", end: 2, step: {initial: " + number(step) + R"yaml(}}
+                      ", end: 3, step: {initial: " + number(step) + R"yaml(}}
 output:
   fields: false
   probes: {d: {field: bead, quantity: translation}, v: {field: bead, quantity: velocity}, w: {field: bead, quantity: spin}}
@@ -193,7 +196,7 @@ output:
     REQUIRE(run.done.code == 0);
     CHECK(run.series("v.y").front() == Approx(0.35));
     CHECK(run.series("w").back() == Approx(1));
-    return std::hypot(run.series("d.x").back() + 0.35, run.series("d.y").back()) / (0.35 * std::cosh(2)) - 1;
+    return std::hypot(run.series("d.x").back() + 0.35, run.series("d.y").back()) / (0.35 * std::cosh(3)) - 1;
   };
   for (const std::string scheme : {"scheme: bdf2", "theta: 0.5"}) {
     const double coarse = off(scheme, "t", 0.02), fine = off(scheme, "t", 0.01);
@@ -271,8 +274,8 @@ TEST_CASE("a top is the same on all numbers of ranks, and resumed") {
   const ShippedRun one("solid/heavy_top", quick);
   CHECK(std::abs(one("spin.x")) > 10);
   // By 0.4 rad a step: the tangent knows how rates of what is tied change.
-  for (const nlohmann::json& step : nlohmann::json::parse(one.summary())["newton"])
-    CHECK(step["iterations"].size() <= 3);
+  const auto summary = nlohmann::json::parse(one.summary());
+  for (const nlohmann::json& step : summary.at("newton")) CHECK(step["iterations"].size() <= 3);
   for (const char* ranks : {"2", "3"})
     CHECK(difference(
               one.csv,
