@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A body that moves through the mesh of a fluid: nothing may depend on how the run was cut into pieces, on
 // the number of ranks, or on factorisations that were kept.
+#include <nlohmann/json.hpp>
+
 #include "scene_run.hpp"
 
 using namespace seam_cli_test;
@@ -84,4 +86,46 @@ checks:
                   "--quiet");
   CAPTURE(shear.done.output);
   CHECK(shear.done.code == 0);
+}
+
+TEST_CASE("iterations that cycle end with the cut as it was only where bodies hardly move on") {
+  const Run run(R"yaml(
+title: A rigid block that a jump of the traction drives back and forth across the line on which its front is
+dimension: 2
+plugins: [cutfem_fluid, solid, nitsche_fsci]
+meshes:
+  box: {grid: {from: [0, 0], to: [2, 1], cells: [16, 8]}}
+  block: {grid: {from: [0.6, 0.3], to: [1.02, 0.7], cells: [2, 2]}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1e-3
+    viscosity: 1e-3
+    boundary:
+      - {on: [x_min, y_min, y_max], velocity: [0, 0]}
+      - {on: x_max, outflow: do_nothing}
+  block: {type: rigid_body, mesh: block, density: 1}
+  skin: {type: rigid_surface, mesh: block}
+constraints: [{type: rigid, field: skin, body: block}]
+interfaces:
+  gamma: {type: embedded, field: water, body: skin}
+coupling:
+  - {type: fsi, on: gamma, jump: {stress: {fluid: ["x > 0.81 ? (x > 1.02 ? 0.5 : -0.5) : 0", 0, 0, 0]}}}
+time: {end: 0.1, step: {initial: 0.1}}
+output: {fields: false}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const auto summary = nlohmann::json::parse(run.folder.read("out/summary.json"));
+  // 0.4 times 0.5 N/m on 0.168 kg/m: one side pushes by 0.012 m in 0.1 s, to and fro by twice as much.
+  const nlohmann::json& first = summary.at("newton").front();
+  CHECK(first.at("frozen") == true);
+  CHECK(first.at("converged") == false);
+  CHECK(first.at("reason").get<std::string>().find(
+            "iterations cycle, and without an update of the cut bodies go on by 0.02") == 0);
+  int frozen = 0;
+  for (const nlohmann::json& step : summary.at("newton")) frozen += step.at("frozen") && step.at("converged");
+  CHECK(frozen > 0);
 }

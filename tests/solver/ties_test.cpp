@@ -145,6 +145,34 @@ TEST_CASE("coefficients that depend on the state are differentiated", "[ranks]")
   CHECK(flux[1] + (1 + value(field, b)) * (flux[0] + 2 * flux[2]) == Approx(0).margin(1e-10));
 }
 
+TEST_CASE("second rates of what is tied are those of the others, and what turning adds", "[ranks]") {
+  // c_a = c_b + c_b^2/2, hence c_a'' = (1 + c_b) c_b'' + c_b'^2.
+  const auto problem = problem_with([](Ties& ties, const Field& field) {
+    const double v = value(field, b);
+    const UnknownPlace to = at(ties, field, b);
+    ties.tie(at(ties, field, a), {{to, 1 + v, 1 + v}}, -v * v / 2);
+    ties.add_change(to, to, 1);
+  });
+  const Field& field = *problem->fields()[0].field;
+  Block& block = problem->fields()[0].field->blocks()[0];
+  block.time_order[0] = 2;
+  std::ranges::fill(block.now.value, 0.5);
+  block.now.rate.assign(block.now.value.size(), 3.0);
+  block.now.second_rate.assign(block.now.value.size(), -4.0);
+  problem->update_spaces(time_point(1, 0, 1));
+  problem->assembler().settle_rates();
+  problem->assembler().settle_second_rates();
+  const auto number = [&](const std::vector<double>& of) {
+    double sum = 0;
+    for (int node = 0; node < block.space->owned_nodes(); ++node)
+      if (std::hypot(block.space->position(node)[0] - a[0], block.space->position(node)[1] - a[1]) < 1e-9)
+        sum += of[node];
+    return field.mesh().communicator().sum(sum);
+  };
+  CHECK(number(block.now.rate) == Approx(1.5 * 3).epsilon(1e-14));
+  CHECK(number(block.now.second_rate) == Approx(1.5 * -4 + 3 * 3).epsilon(1e-14));
+}
+
 TEST_CASE("what is tied may change in every iteration", "[ranks]") {
   // Once the solution is there, a is tied to another node, at another rank.
   const auto problem = problem_with([](Ties& ties, const Field& field) {

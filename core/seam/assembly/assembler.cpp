@@ -121,6 +121,7 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
   local_momentum_rate_.assign(local_momentum_.size(), 0.0);
   if (with_tangent) std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
   find_pending();
+  related_.reset(local_residual_.size());
   together(communicator_, [&] {
     for (Group& group : groups_) assemble_group(group, at, with_tangent);
   });
@@ -259,6 +260,7 @@ void Assembler::assemble_group(Group& group, const TimePoint& at, bool with_tang
         scatter_rate_matrix(element, at.rate_factor);
       }
     }
+    add_related_sums();
   }
 }
 

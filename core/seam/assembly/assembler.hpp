@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "seam/assembly/bound_term.hpp"
+#include "seam/assembly/entry_sums.hpp"
 #include "seam/assembly/node_graph.hpp"
 #include "seam/assembly/ties.hpp"
 #include "seam/linear/equation_block.hpp"
@@ -173,6 +174,7 @@ class Assembler {
   void add_free_block(int row_node, int column_node, const NodeBlock& block);
   void add_related_block(int row_node, int column_node, const NodeBlock& block);
   void add_to_row(int row, double entry, int column);
+  void add_related_sums();
   void hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent);
   void hold_related(bool with_tangent);
   void find_element_nodes(const Group& group, int element);
@@ -226,6 +228,7 @@ class Assembler {
   std::vector<double> local_lift_;                      ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;
   std::vector<int> element_nodes_;
+  EntrySums related_;  ///< of the element's matrix, what relations take to other rows and columns
   bool is_finite_ = true;
   double assembly_seconds_ = 0, pattern_seconds_ = 0;
 };

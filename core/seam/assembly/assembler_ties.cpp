@@ -260,7 +260,7 @@ void Assembler::add_to_row(int row, double entry, int column) {
     if (relation_[unknown] == is_prescribed)
       local_lift_[row] += value * pending_[unknown];
     else
-      value_at(row, unknown) += value;
+      related_.add(row, unknown, value);
   };
   const int relation = relation_[column];
   if (relation < 0) {
@@ -269,6 +269,11 @@ void Assembler::add_to_row(int row, double entry, int column) {
   }
   local_lift_[row] += entry * pending_[column];
   for (const Tie::To& to : ties_[relation].to) add(to.to.unknown, to.coefficient * entry);
+}
+
+/// Takes what relations have made of the element's matrix to the matrix.
+void Assembler::add_related_sums() {
+  related_.take([this](int row, int column, double sum) { value_at(row, column) += sum; });
 }
 
 /// Whether coefficients of one of the element's nodes change with the state.
