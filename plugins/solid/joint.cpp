@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -42,12 +43,20 @@ struct Present {
   std::vector<Weighed> nodes;            ///< of a boundary
   Direction mean{};                      ///< displacement of the boundary
   Number given{0.0}, given_rate{0.0};    ///< motion, with its rates
+  double given_before = 0;               ///< at the start of the step
+  bool in_step = false;                  ///< else in a static problem, or before the first step
 
   [[nodiscard]] Present at_start() const {
     Present start = *this;
     start.body = body.at_start();
     if (partner) start.partner = partner->at_start();
     return start;
+  }
+  /// How far a body has turned in the step about its axes, or, without a step, since the start.
+  [[nodiscard]] Direction turned(const RigidPosition& at) const {
+    Direction since{at.rotation};
+    for (int k = 0; k < 3 && in_step; ++k) since[k] -= at.old_rotation[k];
+    return since;
   }
   /// How unknowns change where things move so: a body's spin is not the rate of its angles.
   [[nodiscard]] PerMotion change(const PerMotion& motion) const {
@@ -125,7 +134,8 @@ class Joint final : public Constraint {
 
   void tie(Ties& ties, const TimePoint& time) const override {
     Present present{body_.present(ties), std::nullopt, {}, {}, Number(0.0), Number(0.0)};
-    if (motion_) set_motion(present, time.time);
+    present.in_step = time.step > 0;
+    if (motion_) set_motion(present, time);
     if (to_) present.partner = to_->present(ties);
     if (deforming_ != nullptr) present.nodes = boundary_nodes(ties);
     for (const Weighed& node : present.nodes) present.mean += node.weight * node.displacement;
@@ -133,7 +143,10 @@ class Joint final : public Constraint {
       if (!body_.owned()) return;
       // Which unknowns follow does not change within a step: one that is as good as another would come and
       // go.
-      solve(ties, present, conditions(present), choose(conditions(present.at_start())));
+      const std::vector<Condition> wanted = conditions(present);
+      require_way(present);
+      require_side(present, wanted);
+      solve(ties, present, wanted, choose(conditions(present.at_start())));
     });
   }
 
@@ -222,10 +235,11 @@ class Joint final : public Constraint {
     return communicator_->gather_all(own);
   }
 
-  void set_motion(Present& present, double time) const {
-    const std::array<double, 2> rates =
-        rates_of([&](double t) { return (*motion_)(at_->c.data(), dimension_, t); }, time);
-    present.given = Number(given_motion(time));
+  void set_motion(Present& present, const TimePoint& at) const {
+    const auto motion = [&](double t) { return (*motion_)(at_->c.data(), dimension_, t); };
+    const std::array<double, 2> rates = rates_of(motion, at.time);
+    present.given = Number(given_motion(at.time));
+    present.given_before = present.in_step ? motion(at.time - at.step) : 0;
     present.given.d[the_clock] = rates[0];
     present.given_rate = Number(rates[0]);
     present.given_rate.d[the_clock] = rates[1];
@@ -295,7 +309,55 @@ class Joint final : public Constraint {
       second[i] = cosine * normal[1][i] - sine * normal[0][i];
       first[i] = cosine * normal[0][i] + sine * normal[1][i];
     }
-    all.push_back(dot(body.direction(normal[0]), partner.direction(second, -present.given_rate * first)));
+    const Moving turned = body.direction(normal[0]);
+    all.push_back(angle(dot(turned, partner.direction(second, -present.given_rate * first)),
+                        dot(turned, partner.direction(first, present.given_rate * second))));
+    all.back().value += turns_left_out(present, all.back().value.v);
+  }
+
+  /// What an angle lacks, of the directions of two bodies: they are the same after whole turns. Unknowns say
+  /// how far bodies have turned about the axis in the step (else since the start), nearly.
+  [[nodiscard]] double turns_left_out(const Present& present, double angle) const {
+    double further = present.given_before - present.given.v;
+    for (int k = 0; k < 3; ++k) {
+      further += (*axis_)[k] * present.turned(present.body)[k];
+      if (present.partner) further -= (*axis_)[k] * present.turned(*present.partner)[k];
+    }
+    constexpr double turn = 2 * std::numbers::pi;
+    return std::isfinite(further) ? turn * std::round((further - angle) / turn) : 0;
+  }
+
+  /// In space a body comes to the same place by many turns, and from far iterations find any of them.
+  /// @throws StepRefused where it has turned by half a turn more than what holds it and moves it
+  void require_way(const Present& present) const {
+    if (dimension_ == 2 || !present.in_step || (kind_ == "hinge" && !axis_)) return;
+    const auto size = [](const Direction& a) { return std::sqrt(seam::dot(a, a)); };
+    const double turn = size(present.turned(present.body)),
+                 partner = present.partner ? size(present.turned(*present.partner)) : 0;
+    if (turn <= partner + std::abs(present.given.v - present.given_before) + std::numbers::pi) return;
+    throw StepRefused(fmt::format(
+        "'{}' would turn by {:.3g} rad in a step, at the joint at {}: further than iterations find "
+        "back to the right side",
+        body_name_, turn, where_.text()));
+  }
+
+  /// Directions are normal to each other after half a turn, too.
+  /// @throws StepRefused where a body has come to that
+  void require_side(const Present& present, const std::vector<Condition>& conditions) const {
+    constexpr double met = 1e-6;
+    if (dimension_ == 2 || (kind_ == "hinge" && !axis_)) return;
+    if (std::ranges::any_of(conditions, [](const Condition& c) { return std::abs(c.value.v) > met; })) return;
+    const Partner body(body_, present.body, 0);
+    const Partner partner = to_ ? Partner(*to_, *present.partner, other) : Partner();
+    for (int i = 0; i < 3; ++i) {
+      Direction along{};
+      along[i] = 1;
+      if (kind_ == "hinge") along = *axis_;
+      if (dot(body.direction(along), partner.direction(along)).value.v > 0) continue;
+      throw StepRefused(
+          fmt::format("the joint at {} would hold '{}' the wrong way round: it has turned too far at once",
+                      where_.text(), body_name_));
+    }
   }
 
   /// Solves the conditions for unknowns of the body, as many as there are: Gauss-Jordan elimination, once of

@@ -45,6 +45,15 @@ inline Condition dot(const Moving& a, const Moving& b) {
   return r;
 }
 
+/// That of two directions, from its sine and cosine.
+inline Condition angle(const Condition& sine, const Condition& cosine) {
+  Condition r{atan2(sine.value, cosine.value)};
+  const Number square = sine.value * sine.value + cosine.value * cosine.value;
+  for (int k = 0; k < motions; ++k)
+    r.motion[k] = (cosine.value * sine.motion[k] - sine.value * cosine.motion[k]) / square;
+  return r;
+}
+
 inline Moving fixed(const Direction& direction) {
   Moving r;
   for (int i = 0; i < 3; ++i) r.value[i] = direction[i];

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rotation.hpp"
+#include "seam/field/field.hpp"
 #include "seam/physics/body_terms.hpp"
 #include "seam/physics/conditions.hpp"
 #include "seam/scene/expression.hpp"
@@ -374,7 +375,7 @@ void RigidBody::build(FieldSetup& setup) const {
   Mat<3, 3, double> inertia;
   if (density > 0) {
     const double mass = density * moments.volume;
-    inertia = inertia_of(moments, density, dim);
+    inertia_ = inertia = inertia_of(moments, density, dim);
     setup.add_cell_term(make_term(RigidMass{mass}), {"translation"});
     if (dim == 2)
       setup.add_cell_term(make_term(PlaneInertia{inertia(2, 2)}), {"rotation"});
@@ -421,6 +422,25 @@ void RigidBody::start_in_space(FieldSetup& setup, const Vec<3, double>& momentum
   };
   set("orientation", SpaceStart::orientation);
   if (parameters_.number("density") > 0) set("angular_momentum", SpaceStart::angular_momentum);
+}
+
+void RigidBody::complete_start(Field& field) const {
+  const Field::ComponentRange rotation = field.place("rotation");
+  Block& block = field.blocks()[rotation.block];
+  if (rotation.components == 1 || block.space->owned_nodes() == 0) return;
+  const int orientation = field.place("orientation").offset;
+  Vec<3, double> turn, spin;
+  Quaternion<double> start;
+  for (int k = 0; k < 3; ++k) {
+    turn[k] = block.now.value[rotation.offset + k] - block.old.value[rotation.offset + k];
+    spin[k] = block.now.rate[rotation.offset + k];
+  }
+  std::copy_n(block.old.value.begin() + orientation, 4, start.c.begin());
+  start = turned(start, turn);
+  std::ranges::copy(start.c, block.now.value.begin() + orientation);
+  if (time_order() < 2) return;
+  const Vec<3, double> momentum = rotation_tensor(start) * (inertia_ * spin);
+  std::ranges::copy(momentum.c, block.now.value.begin() + field.place("angular_momentum").offset);
 }
 
 void RigidBody::displace(int dimension, const double* motion, const double* arm, double* displacement) const {

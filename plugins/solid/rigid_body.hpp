@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "seam/physics/completes_start.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/registry.hpp"
 #include "seam/term/tensor.hpp"
@@ -12,7 +13,7 @@ namespace seam::solid {
 /// that they have led to (a quaternion, scalar last) and, with mass, the angular momentum. Each component of
 /// translation and rotation is either given as a function of time or follows from mass, inertia, springs,
 /// dashpots and loads; the rotation's equations are moments about the body's axes.
-class RigidBody final : public Physics {
+class RigidBody final : public Physics, public CompletesStart {
  public:
   explicit RigidBody(const Parameters& parameters) : parameters_(parameters) {}
   static Schema schema();
@@ -22,6 +23,8 @@ class RigidBody final : public Physics {
   void build(FieldSetup& setup) const override;
   [[nodiscard]] std::string displacement() const override { return "displacement"; }
   void displace(int dimension, const double* motion, const double* arm, double* displacement) const override;
+  /// In space: the orientation that the rotation has led to, and the angular momentum.
+  void complete_start(Field& field) const override;
 
  private:
   /// Highest rate in the equations of motion: 2 with mass, 1 with dashpots alone, else 0.
@@ -30,6 +33,7 @@ class RigidBody final : public Physics {
   /// @param momentum angular, in the body's axes, kg m^2/s
   void start_in_space(FieldSetup& setup, const Vec<3, double>& momentum) const;
   Parameters parameters_;
+  mutable Mat<3, 3, double> inertia_;  ///< about the centre, kg m^2; known once it is built
 };
 
 }  // namespace seam::solid

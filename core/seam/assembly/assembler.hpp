@@ -97,6 +97,14 @@ class Assembler {
   /// ghosts. Collective.
   /// @param increment [owned row]
   void add_increment(const std::vector<double>& increment, double factor);
+  /// How far tied unknowns are from what relations say, zeros for those of other ranks.
+  [[nodiscard]] std::vector<double> ways_of_ties() const;
+  /// Whether coefficients of relations change with the state, on any rank.
+  [[nodiscard]] bool has_turning_ties() const { return has_turning_ties_; }
+  /// Lets tied unknowns follow, by relations as they are now, all but a rest of the way. Collective.
+  /// @param remaining as ways_of_ties() has them
+  /// @return whether some had to move by more than rounding
+  bool follow_ties(const std::vector<double>& remaining);
   /// Row of an owned unknown, -1 when its node is inactive.
   [[nodiscard]] int row(const Field& field, int block, int node, int component) const;
   [[nodiscard]] const std::vector<Field*>& fields() const { return fields_; }
@@ -188,7 +196,6 @@ class Assembler {
   [[nodiscard]] std::vector<double> turned_on(const std::vector<double>& local) const;
   template <class Change>
   void change_at_axes(const std::vector<double>& from, std::vector<double>& to, const Change& change) const;
-  [[nodiscard]] std::vector<double> ways_of_ties() const;
   void settle_ties(const std::vector<double>& remaining);
   /// Position of an entry among the values of the matrix.
   [[nodiscard]] double& value_at(int row, int column) {

@@ -180,7 +180,6 @@ bool Assembler::ties_pending() const {
       ties_, [&](const Tie& tie) { return std::abs(pending_[tie.tied.unknown]) > enough * size_of(tie); });
 }
 
-/// Of the ties of this rank's own unknowns, zeros for others.
 std::vector<double> Assembler::ways_of_ties() const {
   std::vector<double> ways;
   for (const Tie& tie : ties_) ways.push_back(way_of(tie));
@@ -194,6 +193,17 @@ void Assembler::settle_ties(const std::vector<double>& remaining) {
       blocks_[ties_[k].tied.block].block->now.value[ties_[k].tied.state] =
           tied_value(ties_[k]) - remaining[k];
   for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.value, b.block->size);
+}
+
+bool Assembler::follow_ties(const std::vector<double>& remaining) {
+  constexpr double rounding = 1e-13;
+  bool far = false;
+  for (std::size_t k = 0; k < ties_.size(); ++k)
+    far |= ties_[k].tied.unknown < matrix_.rows &&
+           std::abs(way_of(ties_[k]) - remaining[k]) > rounding * size_of(ties_[k]);
+  if (!communicator_.any(far)) return false;
+  settle_ties(remaining);
+  return true;
 }
 
 void Assembler::settle() {

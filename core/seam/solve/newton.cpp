@@ -168,7 +168,7 @@ bool Newton::iterate() {
     increment_.clear();
   } else if (!take(entry)) {
     return fail(fmt::format("no part of the increment of iteration {} leads to an admissible state{}",
-                            iteration_, not_finite_));
+                            iteration_, obstacle_));
   }
   // After a renumbering the increment's rows mean nothing any more.
   if (entry.space_changed) increment_.clear();
@@ -236,10 +236,8 @@ bool Newton::take(NewtonIteration& entry) {
   constexpr double blow_up = 1e4;
   constexpr double least = 1e-3;
   const StateStore::Snapshot before = problem_.iterate(at_);
-  not_finite_.clear();
+  obstacle_.clear();
   for (entry.damping = 1; entry.damping > least; entry.damping /= 2) {
-    problem_.assembler().add_increment(increment_, entry.damping);
-    problem_.update_rates(at_);
     if (follow(entry)) {
       problem_.assembler().assemble(at_, true);
       const double size = measure({}, 0).residual;
@@ -247,7 +245,7 @@ bool Newton::take(NewtonIteration& entry) {
       const bool much_larger = !size_.at_rounding && size > blow_up * size_.residual && size > 1e-3;
       if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
       if (!std::isfinite(size) && (!options_.damping || entry.damping / 2 <= least))
-        not_finite_ = ": there" + problem_.assembler().describe_not_finite(at_);
+        obstacle_ = ": there" + problem_.assembler().describe_not_finite(at_);
     }
     if (!options_.damping) return false;
     problem_.state().restore(before);
@@ -260,17 +258,18 @@ bool Newton::take(NewtonIteration& entry) {
   return false;
 }
 
-/// Lets spaces follow the state. False when bodies moved too far for that; a part of the way may do.
+/// Adds a part of the increment and lets spaces follow. False when bodies moved too far for that; a smaller
+/// part of the way may do.
 bool Newton::follow(NewtonIteration& entry) {
-  if (frozen_) {
-    entry.space_changed = problem_.update_relations(at_);
-    return true;
-  }
   try {
-    entry.space_changed = problem_.update_spaces(at_) == SpaceChange::unknowns;
+    problem_.add_increment(increment_, entry.damping, at_);
+    problem_.update_rates(at_);
+    entry.space_changed =
+        frozen_ ? problem_.update_relations(at_) : problem_.update_spaces(at_) == SpaceChange::unknowns;
     return true;
-  } catch (const StepRefused&) {
+  } catch (const StepRefused& refused) {
     if (!options_.damping) throw;
+    obstacle_ = std::string(": ") + refused.what();
     return false;
   }
 }

@@ -108,7 +108,7 @@ class Newton {
   std::vector<double> frozen_at_;  ///< motions() when the cut was frozen
   double far_ = 0;                 ///< how far it may, m
   long long held_ = -1;            ///< pattern for which it is known that nothing changes without resistance
-  std::string not_finite_;         ///< what was not in the last state that was tried
+  std::string obstacle_;           ///< why the last state that was tried is not admissible
 };
 
 /// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.

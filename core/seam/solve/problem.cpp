@@ -20,6 +20,7 @@
 #include "seam/field/part_layout.hpp"
 #include "seam/interface/begins_steps.hpp"
 #include "seam/mesh/mesh.hpp"
+#include "seam/physics/completes_start.hpp"
 #include "seam/solve/field_builder.hpp"
 #include "seam/solve/level.hpp"
 
@@ -384,6 +385,7 @@ void Problem::initialise(double time, bool impose_prescribed) {
     state_.advance();  // a constraint may look at the start of the step
     if (update_ties(time_point(time, 0, 1))) assembler_->rebuild();
     assembler_->settle();
+    follow_relations(std::vector<double>(assembler_->ways_of_ties().size(), 0.0), time_point(time, 0, 1));
     assembler_->settle_rates();
     // Rates of what is given in time are not known here.
     const auto is_given = [](const FieldEntry& entry) {
@@ -398,6 +400,9 @@ void Problem::initialise(double time, bool impose_prescribed) {
           if (entry.physics->support() == Support::point && entry.field->blocks()[0].space->owned_nodes() > 0)
             require_kept_rates(entry, time);
       });
+    for (const FieldEntry& entry : fields_)
+      if (const auto* completes = dynamic_cast<const CompletesStart*>(entry.physics.get()))
+        completes->complete_start(*entry.field);
   }
   state_.advance();
 }
@@ -544,6 +549,26 @@ bool Problem::update_ties(const TimePoint& at) {
   return true;
 }
 
+void Problem::add_increment(const std::vector<double>& increment, double part, const TimePoint& at) {
+  std::vector<double> remaining = assembler_->ways_of_ties();
+  for (double& way : remaining) way *= 1 - part;
+  assembler_->add_increment(increment, part);
+  follow_relations(remaining, at);
+}
+
+/// Relations are no straight lines: what follows from others is brought to where they say, all but a rest of
+/// the way.
+void Problem::follow_relations(const std::vector<double>& remaining, const TimePoint& at) {
+  constexpr int most = 30;  // each body of a chain may need one more, and quadratic convergence a few
+  for (int k = 0; k < most && assembler_->has_turning_ties(); ++k) {
+    if (update_ties(at)) {
+      unfinished_ = SpaceChange::unknowns;
+      return;
+    }
+    if (!assembler_->follow_ties(remaining)) return;
+  }
+}
+
 SpaceChange Problem::update_spaces(const TimePoint& at) {
   // An update that is refused on its way leaves some parts updated: the next one begins from scratch.
   SpaceChange change = std::exchange(unfinished_, SpaceChange::unknowns);
@@ -572,7 +597,8 @@ void Problem::settle_rates(const TimePoint& at) {
 }
 
 bool Problem::update_relations(const TimePoint& at) {
-  const bool changed = update_ties(at);
+  const bool pending = std::exchange(unfinished_, SpaceChange::none) == SpaceChange::unknowns,
+             changed = update_ties(at) || pending;
   if (changed) assembler_->rebuild();
   if (!constraints_.empty()) settle_rates(at);
   return changed;

@@ -193,6 +193,11 @@ class Problem {
   /// @param from the time of the present state; a static problem's steps have no length that would tell
   void begin_step(const TimePoint& at, double from);
   void begin_step(const TimePoint& at) { begin_step(at, at.time - at.step); }
+  /// Adds a part of an increment to the unknowns. What is tied goes that part of its way, on the relations as
+  /// they are where the others have come to: in arcs around what turns. Collective.
+  /// @param increment [owned row]
+  /// @throws StepRefused when a relation does not bear it
+  void add_increment(const std::vector<double>& increment, double part, const TimePoint& at);
   /// From now on states keep mean rates, and rates follow from them: with two_step_theta() the backward
   /// difference formula of second order (BDF2). Before the first step.
   void keep_mean_rates();
@@ -228,6 +233,7 @@ class Problem {
   void add_swept_volumes();
   Ties ask_constraints(const TimePoint& at);
   bool update_ties(const TimePoint& at);
+  void follow_relations(const std::vector<double>& remaining, const TimePoint& at);
   void carry_rates();
   void carry_rates(const std::vector<Ties::Resolved>& ties);
   void update_second_rates(const TimePoint& at, bool relations = true);
