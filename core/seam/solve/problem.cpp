@@ -527,9 +527,11 @@ Ties Problem::ask_constraints(const TimePoint& at) {
   Ties ties(fields);
   for (const auto& [constraint, where] : constraints_) {
     ties.set_origin(where);
-    call_plugin(
-        where, [&, &of = *constraint] { return "a constraint" + plugin_of(of); },
-        [&, &of = *constraint] { of.tie(ties, at); });
+    // One that fails on a rank of its own would leave the others waiting for its ties.
+    together(communicator_, [&, &of = *constraint, &place = where] {
+      call_plugin(
+          place, [&] { return "a constraint" + plugin_of(of); }, [&] { of.tie(ties, at); });
+    });
   }
   return ties;
 }
@@ -549,8 +551,11 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   SpaceChange change = std::exchange(unfinished_, SpaceChange::unknowns);
   change = std::max(change, update_cuts(at));
   for (auto& [name, parts] : interfaces_)
-    for (InterfacePart& part : parts)
-      if (communicator_.any(part.domain->follow(at.time))) change = std::max(change, SpaceChange::geometry);
+    for (InterfacePart& part : parts) {
+      bool moved = false;
+      together(communicator_, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      if (communicator_.any(moved)) change = std::max(change, SpaceChange::geometry);
+    }
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;
