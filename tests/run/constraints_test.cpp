@@ -199,6 +199,44 @@ output: {fields: false}
              !Catch::Contains("is periodic"));
 }
 
+/// Two patches of fluid on each other, with constraints.
+std::string patches(const std::string& more, const std::string& constraint) {
+  return fmt::format(R"yaml(
+title: Two patches
+dimension: 2
+plugins: [cutfem_fluid]
+meshes:
+  lower: {{grid: {{from: [0, 0], to: [1, 0.5], cells: [8, 4]}}}}
+  upper: {{grid: {{from: [0, 0.5], to: [1, 1], cells: [8, 4]}}}}
+fields:
+  lower:
+    type: cutfem_fluid
+    mesh: lower
+    density: 1
+    viscosity: 0.1
+    boundary: [{{on: [x_min, x_max, y_min], velocity: [0, 0]}}]
+    {}
+  upper:
+    type: cutfem_fluid
+    mesh: upper
+    density: 1
+    viscosity: 0.1
+    boundary:
+      - {{on: y_max, velocity: ["16*x^2*(1 - x)^2", 0]}}
+      - {{on: [x_min, x_max], velocity: [0, 0]}}
+constraints:
+  - {{type: tied, {}}}
+)yaml",
+                     more, constraint);
+}
+
+TEST_CASE("what is tied has one part a cell") {
+  const std::string words = "keeps parts of its cells apart (`parts: separate`)";
+  for (const char* tied : {"fields: [upper, lower], boundaries: [y_min, y_max]",
+                           "fields: [lower, upper], boundaries: [y_max, y_min]"})
+    refuses(patches("parts: separate", tied), {"scene.yaml:25:5", "field 'lower' " + words});
+}
+
 TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   const std::string periodic = "{type: periodic, field: lower, boundaries: ";
   refuses(scene(periodic + "[x_min]}"), {"found 1 boundaries", "pairs"});

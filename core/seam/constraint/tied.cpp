@@ -84,6 +84,13 @@ class Tied final : public Constraint {
   void build(ConstraintSetup& setup) override {
     tied_ = &setup.field(names_[0]);
     master_ = &setup.field(names_[1]);
+    for (const Field* field : {tied_, master_})
+      if (field->sets() > 1)
+        throw Error(
+            where_,
+            fmt::format("field '{}' keeps parts of its cells apart (`parts: separate`): which of them "
+                        "what is tied goes with is not known; take it without",
+                        field->name()));
     if (unknowns_.empty())
       for (const Unknown& unknown : tied_->unknowns())
         if (!unknown.given) unknowns_.push_back(unknown.name);
