@@ -252,6 +252,16 @@ TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   refuses(scene("{type: symmetry, field: lower, boundaries: [roof]}"), {"roof"});
   refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, x_max]}"),
           {"lies on no face of 'x_max' of field 'lower'"});
+  // Half a hundredth of a cell apart and in each other is as good as on each other, eight hundredths are not.
+  for (const double off : {0.02, -0.02}) {
+    const std::string grid = fmt::format("cells: [4, 4], map: [x, 'y + {}*y']", off);
+    refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}", grid),
+            {"scene.yaml:19:15", "lies on no face of 'y_max' of field 'lower'",
+             "the tied boundary must lie on the other one"});
+    const std::string near = fmt::format("cells: [4, 4], map: [x, 'y + {}*y']", off / 16);
+    CHECK(Run(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}", near), "--quiet")
+              .done.code == 0);
+  }
   refuses(scene("{type: tied, fields: [upper], boundaries: [y_min, y_max]}"),
           {"found 1 fields and 2 boundaries"});
   refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}, {type: tied, fields: "

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -17,6 +18,23 @@
 namespace seam {
 namespace {
 
+/// How far a place lies from the plane or line of a face, in reference coordinates of its cell.
+double distance_to_face(const CellTopology& cell, int face, const std::vector<double>& x) {
+  const int dim = cell.dimension;
+  const std::vector<int>& corners = cell.faces[face];
+  const auto from_first = [&](const double* to) {
+    std::array<double, 3> way{};
+    for (int d = 0; d < dim; ++d) way[d] = to[d] - cell.node_coordinates[corners[0] * dim + d];
+    return way;
+  };
+  const auto edge = [&](int k) { return from_first(&cell.node_coordinates[corners[k] * dim]); };
+  const std::array<double, 3> a = edge(1), b = dim == 3 ? edge(2) : std::array<double, 3>{0, 0, 1};
+  const double normal[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  const std::array<double, 3> way = from_first(x.data());
+  return std::abs(normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2]) /
+         std::hypot(normal[0], normal[1], normal[2]);
+}
+
 /// The cells at a boundary, found by the boxes that their faces lie in.
 class FacesNearby {
  public:
@@ -25,7 +43,7 @@ class FacesNearby {
     const std::size_t per_face = static_cast<std::size_t>(topology(cell.face_type).nodes(whole.order));
     std::vector<std::pair<cutting::Vector, cutting::Vector>> boxes;
     for (const CellFace& face : faces) {
-      cells_.push_back(face.cell);
+      faces_.push_back(face);
       cutting::Vector low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
       if (dim_ == 2) low[2] = high[2] = 0;
       for (std::size_t a = 0; a < per_face; ++a) {
@@ -48,19 +66,19 @@ class FacesNearby {
     }
     search_ = std::make_unique<cutting::CellSearch>(boxes);
   }
-  /// Appends the global numbers of the cells whose face may be at x.
-  void find(const double* x, std::vector<int>& cells) const {
+  /// Appends the faces, of cells by global numbers, that may be at x.
+  void find(const double* x, std::vector<CellFace>& faces) const {
     cutting::Vector at{};
     std::copy_n(x, dim_, at.begin());
-    const auto first = static_cast<std::ptrdiff_t>(cells.size());
-    search_->find(at, at, cells);
-    std::sort(cells.begin() + first, cells.end());
-    std::for_each(cells.begin() + first, cells.end(), [&](int& found) { found = cells_[found]; });
+    std::vector<int> found;
+    search_->find(at, at, found);
+    std::ranges::sort(found);
+    for (const int face : found) faces.push_back(faces_[face]);
   }
 
  private:
   int dim_;
-  std::vector<int> cells_;
+  std::vector<CellFace> faces_;
   std::unique_ptr<cutting::CellSearch> search_;
 };
 
@@ -142,33 +160,40 @@ class Tied final : public Constraint {
     Pair pair{from, to, {}, {}};
     const Space& space = *tied_->blocks()[from].space;
     std::vector<int> nodes, cells;
+    std::vector<CellFace> near;
     std::vector<std::size_t> end;  // of each node's candidates
     for (const int node : setup.boundary_nodes(*tied_, from, boundaries_[0])) {
       if (node >= space.owned_nodes()) continue;
       nodes.push_back(node);
-      faces.find(space.position(node), cells);
-      end.push_back(cells.size());
+      faces.find(space.position(node), near);
+      end.push_back(near.size());
     }
+    for (const CellFace& face : near) cells.push_back(face.cell);
     const std::vector<RemoteCell> candidates = fetch_cells(*master_, cells);
     together(master_->mesh().communicator(), [&] {
       std::size_t k = 0;
       for (std::size_t n = 0; n < nodes.size(); ++n) {
         Place& place = pair.places.emplace_back(Place{nodes[n], {}});
         double least = 1e-2;
-        for (; k < end[n]; ++k) look_at(candidates[k], space.position(nodes[n]), to, least, place);
+        for (; k < end[n]; ++k)
+          look_at(candidates[k], near[k].face, space.position(nodes[n]), to, least, place);
         if (place.shares.empty()) throw nothing_there(space.position(nodes[n]));
       }
     });
     return pair;
   }
 
-  /// @param least how far the place in the best cell so far lies outside of it
-  void look_at(const RemoteCell& cell, const double* x, int block, double& least, Place& place) const {
+  /// @param least how far the place lies from the best face so far, in reference coordinates of its cell
+  void look_at(const RemoteCell& cell, int face, const double* x, int block, double& least,
+               Place& place) const {
     ElementSide side;
     cell.attach(side, *master_);
     const auto in_cell = locate(side, x);
-    if (!in_cell || !(in_cell->outside < least)) return;
-    least = in_cell->outside;
+    if (!in_cell) return;
+    const double away = std::max(
+        in_cell->outside, distance_to_face(topology(master_->mesh().type()), face, in_cell->reference));
+    if (!(away < least)) return;
+    least = away;
     ShapeTable table;
     tabulate(master_->mesh().type(), master_->blocks()[block].space->order(), in_cell->reference.data(), 1,
              false, table);
