@@ -237,6 +237,68 @@ TEST_CASE("what is tied has one part a cell") {
     refuses(patches("parts: separate", tied), {"scene.yaml:25:5", "field 'lower' " + words});
 }
 
+namespace {
+
+/// Fluid in a cavity whose lid moves, in one patch or in two that are tied.
+std::string cavity(const std::string& meshes, const std::string& lower, const std::string& upper,
+                   const std::string& more) {
+  const auto field = [&](const char* name, const std::string& boundary) {
+    return fmt::format(
+        "  {}: {{type: cutfem_fluid, mesh: {}, density: 1, viscosity: 0.1, stabilisation: residual, "
+        "boundary: "
+        "[{}]}}\n",
+        name, name, boundary);
+  };
+  return "title: A cavity\ndimension: 2\nplugins: [cutfem_fluid]\nmeshes:\n" + meshes + "fields:\n" +
+         field("lower", lower) + (upper.empty() ? "" : field("upper", upper)) + more +
+         "time: {static: true, end: 1}\nsolver: {newton: {tolerance: 1e-11}}\noutput:\n  fields: false\n"
+         "  probes: {p: {field: lower, at: [0.25, 0.25], quantity: pressure}}\n";
+}
+
+}  // namespace
+
+TEST_CASE("patches of a fluid that are tied have one level of the pressure") {
+  const std::string lid = "{on: y_max, velocity: [\"16*x^2*(1 - x)^2\", 0]}, ",
+                    sides = "{on: [x_min, x_max], velocity: [0, 0]}",
+                    walls = "{on: [x_min, x_max, y_min], velocity: [0, 0]}",
+                    halves =
+                        "  lower: {grid: {from: [0, 0], to: [1, 0.5], cells: [8, 4]}}\n"
+                        "  upper: {grid: {from: [0, 0.5], to: [1, 1], cells: [8, 4]}}\n";
+  const Run whole(cavity("  lower: {grid: {from: [0, 0], to: [1, 1], cells: [8, 8]}}\n", lid + walls, "", ""),
+                  "--quiet");
+  REQUIRE(whole.done.code == 0);
+  const double level = whole.series("p").back();
+  CHECK(std::abs(level) > 1e-3);
+  const std::string to_lower =
+                        "constraints: [{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}]\n",
+                    to_upper =
+                        "constraints: [{type: tied, fields: [lower, upper], boundaries: [y_max, y_min]}]\n";
+  for (const std::string& ties : {to_lower, to_upper})
+    for (const char* solver : {"--quiet", "--quiet --set solver.linear=krylov"})
+      for (const char* ranks : {"", "mpirun --oversubscribe -np 3"}) {
+        const Run run(cavity(halves, walls, lid + sides, ties), solver, ranks);
+        CAPTURE(ties, solver, ranks, run.done.output);
+        REQUIRE(run.done.code == 0);
+        CHECK(run.series("p").back() == Approx(level).epsilon(1e-8));
+      }
+  // What enters one patch may leave the other; what leaves neither is lost.
+  const std::string in =
+      "{on: x_min, velocity: [\"16*y*(0.5 - y)\", 0]}, {on: [x_max, y_min], velocity: [0, 0]}";
+  const auto out = [](const std::string& rate) {
+    return "{on: x_max, velocity: [\"" + rate +
+           "*(y - 0.5)*(1 - y)\", 0]}, {on: [x_min, y_max], velocity: [0, 0]}";
+  };
+  CHECK(Run(cavity(halves, in, out("16"), to_lower), "--quiet").done.code == 0);
+  CHECK_THAT(Run(cavity(halves, in, out("15"), to_lower), "--quiet").done.output,
+             Catch::Contains("nothing lets out of a closed part of it what is let in: 0.01953"));
+  // The lower one is open beside the upper one.
+  const std::string step =
+      "  lower: {grid: {from: [0, 0], to: [2, 0.5], cells: [16, 4]}}\n"
+      "  upper: {grid: {from: [0, 0.5], to: [1, 1], cells: [8, 4]}}\n";
+  for (const std::string& rate : {std::string("16"), std::string("15")})
+    CHECK(Run(cavity(step, in, out(rate), to_lower), "--quiet").done.code == 0);
+}
+
 TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   const std::string periodic = "{type: periodic, field: lower, boundaries: ";
   refuses(scene(periodic + "[x_min]}"), {"found 1 boundaries", "pairs"});

@@ -10,6 +10,7 @@
 #include "seam/assembly/remote_cells.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/constraint/constraint.hpp"
+#include "seam/constraint/joins_fields.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/constraint/types.hpp"
 #include "seam/cut/cell_search.hpp"
@@ -35,6 +36,24 @@ double distance_to_face(const CellTopology& cell, int face, const std::vector<do
          std::hypot(normal[0], normal[1], normal[2]);
 }
 
+/// How far off a face, in reference coordinates of its cell, what counts as on it may lie.
+constexpr double beside = 1e-2;
+
+double from_face(const PlaceInCell& place, CellType type, int face) {
+  return std::max(place.outside, distance_to_face(topology(type), face, place.reference));
+}
+
+/// The middle of a face's corners.
+std::vector<double> middle_of(const Mesh& mesh, const CellFace& face) {
+  const int dim = mesh.dimension();
+  const std::vector<int>& corners = topology(mesh.type()).faces[face.face];
+  std::vector<double> middle(dim, 0.0);
+  for (const int corner : corners)
+    for (int d = 0; d < dim; ++d)
+      middle[d] += mesh.geometry(face.cell)[corner * dim + d] / static_cast<double>(corners.size());
+  return middle;
+}
+
 /// The cells at a boundary, found by the boxes that their faces lie in.
 class FacesNearby {
  public:
@@ -56,8 +75,8 @@ class FacesNearby {
         }
       }
       // Faces of curved surfaces that two meshes approximate in different ways lie beside each other.
-      constexpr double beside = 0.1;
-      const double margin = beside * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+      constexpr double apart = 0.1;
+      const double margin = apart * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
       for (int d = 0; d < dim_; ++d) {
         low[d] -= margin;
         high[d] += margin;
@@ -83,7 +102,7 @@ class FacesNearby {
 };
 
 /// The nodes of one boundary follow the field on another one.
-class Tied final : public Constraint {
+class Tied final : public Constraint, public JoinsFields {
  public:
   explicit Tied(const Parameters& p)
       : where_(p.where()),
@@ -126,8 +145,11 @@ class Tied final : public Constraint {
                        ? *known
                        : pairs_.emplace_back(find_places(setup, faces, from.block, to.block));
       for (int c = 0; c < from.components; ++c) pair.components.emplace_back(from.offset + c, to.offset + c);
+      if (from.components == 1) join(from, to, pair);
     }
   }
+
+  [[nodiscard]] const std::vector<JoinedFields>& joined() const override { return joined_; }
 
   void tie(Ties& ties, const TimePoint&) const override {
     for (const Pair& pair : pairs_) {
@@ -155,6 +177,45 @@ class Tied final : public Constraint {
     std::vector<Place> places;
   };
 
+  /// A number of one field goes on in the other one.
+  void join(const Field::ComponentRange& from, const Field::ComponentRange& to, const Pair& pair) {
+    JoinedFields& joined = joined_.emplace_back(
+        JoinedFields{{tied_, from.block, from.offset, {}}, {master_, to.block, to.offset, {}}, {}});
+    for (const Place& place : pair.places)
+      for (const auto& [node, share] : place.shares) joined.nodes.emplace_back(place.node, node);
+    const auto own_faces = [](const Field& field, const std::string& boundary) {
+      std::vector<CellFace> faces = field.mesh().boundary(boundary);
+      std::erase_if(faces, [&](const CellFace& face) { return face.cell >= field.mesh().owned_cells(); });
+      return faces;
+    };
+    joined.tied.faces = own_faces(*tied_, boundaries_[0]);
+    // The other boundary may be the larger one, and open beside what lies on it.
+    const MeshData& whole = tied_->mesh().whole();
+    const FacesNearby tied_faces(whole, whole.boundaries.at(boundaries_[0]));
+    joined.other.faces = own_faces(*master_, boundaries_[1]);
+    std::erase_if(joined.other.faces, [&](const CellFace& face) {
+      return !lies_on(whole, tied_faces, middle_of(master_->mesh(), face).data());
+    });
+  }
+
+  /// Whether a place lies on one of the tied faces, whose cells other ranks may own.
+  [[nodiscard]] bool lies_on(const MeshData& whole, const FacesNearby& faces, const double* x) const {
+    std::vector<CellFace> near;
+    faces.find(x, near);
+    return std::ranges::any_of(near, [&](const CellFace& face) {
+      RemoteCell cell{face.cell, 0, {}, {}};
+      for (int a = 0; a < whole.nodes_per_cell(); ++a) {
+        const int node = whole.cells[static_cast<std::size_t>(face.cell) * whole.nodes_per_cell() + a];
+        const double* at = &whole.coordinates[static_cast<std::size_t>(node) * whole.dimension];
+        cell.geometry.insert(cell.geometry.end(), at, at + whole.dimension);
+      }
+      ElementSide side;
+      cell.attach(side, *tied_);
+      const auto in_cell = locate(side, x);
+      return in_cell && from_face(*in_cell, whole.type, face.face) < beside;
+    });
+  }
+
   [[nodiscard]] Pair find_places(const ConstraintSetup& setup, const FacesNearby& faces, int from,
                                  int to) const {
     Pair pair{from, to, {}, {}};
@@ -174,7 +235,7 @@ class Tied final : public Constraint {
       std::size_t k = 0;
       for (std::size_t n = 0; n < nodes.size(); ++n) {
         Place& place = pair.places.emplace_back(Place{nodes[n], {}});
-        double least = 1e-2;
+        double least = beside;
         for (; k < end[n]; ++k)
           look_at(candidates[k], near[k].face, space.position(nodes[n]), to, least, place);
         if (place.shares.empty()) throw nothing_there(space.position(nodes[n]));
@@ -214,6 +275,7 @@ class Tied final : public Constraint {
   std::vector<std::string> names_, boundaries_, unknowns_;
   Field *tied_ = nullptr, *master_ = nullptr;
   std::vector<Pair> pairs_;
+  std::vector<JoinedFields> joined_;
 };
 
 }  // namespace

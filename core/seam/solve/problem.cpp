@@ -200,13 +200,14 @@ void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::ve
 void Problem::add_constraint(std::unique_ptr<Constraint> constraint, const Location& where) {
   FieldsForConstraint setup(*this);
   constraint->build(setup);
+  if (const auto* joins = dynamic_cast<const JoinsFields*>(constraint.get())) joins_.push_back(joins);
   constraints_.emplace_back(std::move(constraint), where);
 }
 
 void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
   entry.field->occupy(active, cut);
   for (auto& [domain, terms] : domains_) domain->update(*entry.field);
-  place_levels(entry);
+  place_levels(fields_, joins_, entry);
 }
 
 FieldCut& Problem::cut(FieldEntry& entry) {
@@ -223,7 +224,7 @@ void Problem::finish(double time, bool shape_derivatives) {
         block.prescribed[static_cast<std::size_t>(node) * block.size + condition.component] = 1;
     }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
-    place_levels(entry);
+    place_levels(fields_, joins_, entry);
     for (const LevelCondition& level : entry.levels)
       if (entry.cut) entry.cut->keep_at(level.open_boundaries);
     fields.push_back(entry.field.get());
