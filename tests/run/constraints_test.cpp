@@ -299,6 +299,41 @@ TEST_CASE("patches of a fluid that are tied have one level of the pressure") {
     CHECK(Run(cavity(step, in, out(rate), to_lower), "--quiet").done.code == 0);
 }
 
+TEST_CASE("parts that are tied to each other and that nothing holds as a whole are found by check") {
+  const auto block = [](const std::string& more) {
+    return "{type: solid, mesh: lower, material: {type: neo_hookean, young: 100, poisson: 0.3}" + more +
+           "}\n";
+  };
+  const std::string head =
+      "title: Parts\ndimension: 2\nplugins: [solid]\nmeshes:\n"
+      "  lower: {grid: {from: [0, 0], to: [1, 1], cells: [4, 4]}}\n"
+      "  upper: {grid: {from: [0, 1], to: [1, 2], cells: [4, 4]}}\n";
+  const std::string
+      load = ", boundary: [{on: x_min, traction: [1, 0]}]",
+      base = ", boundary: [{on: y_min, displacement: [0, 0]}]",
+      upper =
+          "  upper: {type: solid, mesh: upper, material: {type: neo_hookean, young: 100, poisson: 0.3}}\n"
+          "constraints: [{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}]\n",
+      plate =
+          "  plate: {type: rigid_body, mesh: upper}\n"
+          "constraints: [{type: rigid, field: lower, body: plate, on: y_max}]\n";
+  for (const char* ranks : {"", "mpirun --oversubscribe -np 2"})
+    for (const std::string& other : {upper, plate}) {
+      const Folder folder;
+      const Result loose =
+          seam("check " + folder.file("scene.yaml", head + "fields:\n  lower: " + block("") + other), ranks);
+      CAPTURE(loose.output);
+      CHECK(loose.code == 2);
+      CHECK_THAT(loose.output,
+                 Catch::Contains("scene.yaml:8:3") &&
+                     Catch::Contains(
+                         "are tied to each other, and nothing holds them together: "
+                         "they can change by a rotation about z, a translation in x, a translation in y") &&
+                     Catch::Contains("'lower'"));
+      CHECK(Run(head + "fields:\n  lower: " + block(base) + other, "--quiet", ranks).done.code == 0);
+    }
+}
+
 TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   const std::string periodic = "{type: periodic, field: lower, boundaries: ";
   refuses(scene(periodic + "[x_min]}"), {"found 1 boundaries", "pairs"});
