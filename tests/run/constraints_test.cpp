@@ -299,6 +299,51 @@ TEST_CASE("patches of a fluid that are tied have one level of the pressure") {
     CHECK(Run(cavity(step, in, out(rate), to_lower), "--quiet").done.code == 0);
 }
 
+TEST_CASE("a body that crosses a periodic boundary is refused, at the start and on its way") {
+  const auto channel = [](const std::string& bodies, const std::string& couplings) {
+    return fmt::format(R"yaml(
+title: A periodic channel with discs
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {{box: {{grid: {{from: [0, 0], to: [2, 1], cells: [16, 8]}}}}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 1
+    stabilisation: residual
+    boundary: [{{on: [y_min, y_max], velocity: [0, 0]}}]
+constraints:
+  - {{type: periodic, field: water, boundaries: [x_min, x_max]}}
+interfaces: {{{}}}
+coupling: [{}]
+time: {{end: 0.5, step: {{initial: 0.1}}}}
+)yaml",
+                       bodies, couplings);
+  };
+  const auto disc = [](const std::string& name, const std::string& x, const std::string& motion) {
+    return name + ": {type: cut, field: water, body: {type: circle, centre: [" + x + ", 0.53], radius: 0.2}" +
+           motion + "}";
+  };
+  const auto wall = [](const std::string& name, const std::string& velocity) {
+    return "{type: fluid_wall, on: " + name + ", velocity: [" + velocity + ", 0]}";
+  };
+  const std::string words = "a body reaches over the periodic boundary 'x_max' of field 'water' at (2, 0.";
+  refuses(channel(disc("one", "1.9", ""), wall("one", "0")), {"scene.yaml:15:5", words});
+  const std::string moves = ", motion: {translation: [t, 0]}";
+  const Run crosses(channel(disc("one", "1.6", moves), wall("one", "1")), "--quiet");
+  CAPTURE(crosses.done.output);
+  CHECK(crosses.done.code == 1);
+  CHECK_THAT(crosses.done.output, Catch::Contains(words) && Catch::Contains("last good state (t = 0.19"));
+  // One that stands for the part beyond.
+  const Run both(channel(disc("one", "1.9", "") + ", " + disc("two", "-0.1", ""),
+                         wall("one", "0") + ", " + wall("two", "0")),
+                 "--quiet");
+  CAPTURE(both.done.output);
+  CHECK(both.done.code == 0);
+}
+
 TEST_CASE("parts that are tied to each other and that nothing holds as a whole are found by check") {
   const auto block = [](const std::string& more) {
     return "{type: solid, mesh: lower, material: {type: neo_hookean, young: 100, poisson: 0.3}" + more +

@@ -14,6 +14,8 @@
 #include "seam/assembly/together.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
+#include "seam/constraint/joins_fields.hpp"
+#include "seam/constraint/watches_cut.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/field_cut.hpp"
 #include "seam/field/field.hpp"
@@ -513,7 +515,11 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
     if (!same) set_given(entry, at.time);  // nodes of further sets of unknowns may have come
     change = std::max(change, communicator_.any(!same) ? SpaceChange::unknowns : SpaceChange::geometry);
   }
-  if (change != SpaceChange::none) update_rates(at);
+  if (change != SpaceChange::none) {
+    for (const auto& [constraint, where] : constraints_)
+      if (const auto* watches = dynamic_cast<const WatchesCut*>(constraint.get())) watches->look_at_cut(at);
+    update_rates(at);
+  }
   cut_seconds_ += watch.seconds();
   return change;
 }
