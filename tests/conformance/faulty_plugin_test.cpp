@@ -52,7 +52,6 @@ TEST_CASE("what a plugin declares that cannot be is refused by check, with plugi
       {"null quantity", "its build() adds a quantity that is null"},
       {"quantity as term", "adds the quantity 'Numbers<1>' as a term; make_term() makes those"},
       {"term as quantity", "adds the term 'Radiation' as a quantity; make_quantity() makes those"},
-      {"integral of two", "the integral 'two' is of 2 numbers a point; it records one"},
       {"prescribes", "component 7 of 'temperature', which has 1: 0 is the first"},
       {"prescribes before", "component -1 of 'temperature', which has 1"},
       {"starts", "component 1 of 'temperature', which has 1"},

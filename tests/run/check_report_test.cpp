@@ -39,6 +39,18 @@ TEST_CASE("check tells the units of what will be recorded") {
   const auto sphere = units(check(config("fluid/sphere")));
   CHECK(sphere.at("drag") == "N");
   CHECK(sphere.at("outflow") == "m^3/s");
+  // A probe with the name of its field: what the field records has units of its own.
+  const Folder folder;
+  const auto named = units(check(
+      folder.file("s.yaml",
+                  "title: a bar\ndimension: 2\nplugins: [solid]\nmeshes: {one: {grid: {from: [0, 0], to: [1, "
+                  "1], cells: [1, "
+                  "1]}}}\nfields: {one: {type: rigid_body, mesh: one, density: 1, body_force: [0, -1]}}\n"
+                  "time: {end: 1, step: {initial: 0.5}}\noutput: {probes: {one: {field: one, quantity: "
+                  "translation}}}\n")));
+  CHECK(named.at("one.x") == "m");
+  CHECK(named.at("one.y") == "m");
+  CHECK(named.at("one.kinetic_energy") == "J");
 }
 
 TEST_CASE("check estimates memory and the seconds of a step") {

@@ -199,6 +199,186 @@ output: {fields: false}
              !Catch::Contains("is periodic"));
 }
 
+/// Two patches of fluid on each other, with constraints.
+std::string patches(const std::string& more, const std::string& constraint) {
+  return fmt::format(R"yaml(
+title: Two patches
+dimension: 2
+plugins: [cutfem_fluid]
+meshes:
+  lower: {{grid: {{from: [0, 0], to: [1, 0.5], cells: [8, 4]}}}}
+  upper: {{grid: {{from: [0, 0.5], to: [1, 1], cells: [8, 4]}}}}
+fields:
+  lower:
+    type: cutfem_fluid
+    mesh: lower
+    density: 1
+    viscosity: 0.1
+    boundary: [{{on: [x_min, x_max, y_min], velocity: [0, 0]}}]
+    {}
+  upper:
+    type: cutfem_fluid
+    mesh: upper
+    density: 1
+    viscosity: 0.1
+    boundary:
+      - {{on: y_max, velocity: ["16*x^2*(1 - x)^2", 0]}}
+      - {{on: [x_min, x_max], velocity: [0, 0]}}
+constraints:
+  - {{type: tied, {}}}
+)yaml",
+                     more, constraint);
+}
+
+TEST_CASE("what is tied has one part a cell") {
+  const std::string words = "keeps parts of its cells apart (`parts: separate`)";
+  for (const char* tied : {"fields: [upper, lower], boundaries: [y_min, y_max]",
+                           "fields: [lower, upper], boundaries: [y_max, y_min]"})
+    refuses(patches("parts: separate", tied), {"scene.yaml:25:5", "field 'lower' " + words});
+}
+
+namespace {
+
+/// Fluid in a cavity whose lid moves, in one patch or in two that are tied.
+std::string cavity(const std::string& meshes, const std::string& lower, const std::string& upper,
+                   const std::string& more) {
+  const auto field = [&](const char* name, const std::string& boundary) {
+    return fmt::format(
+        "  {}: {{type: cutfem_fluid, mesh: {}, density: 1, viscosity: 0.1, stabilisation: residual, "
+        "boundary: "
+        "[{}]}}\n",
+        name, name, boundary);
+  };
+  return "title: A cavity\ndimension: 2\nplugins: [cutfem_fluid]\nmeshes:\n" + meshes + "fields:\n" +
+         field("lower", lower) + (upper.empty() ? "" : field("upper", upper)) + more +
+         "time: {static: true, end: 1}\nsolver: {newton: {tolerance: 1e-11}}\noutput:\n  fields: false\n"
+         "  probes: {p: {field: lower, at: [0.25, 0.25], quantity: pressure}}\n";
+}
+
+}  // namespace
+
+TEST_CASE("patches of a fluid that are tied have one level of the pressure") {
+  const std::string lid = "{on: y_max, velocity: [\"16*x^2*(1 - x)^2\", 0]}, ",
+                    sides = "{on: [x_min, x_max], velocity: [0, 0]}",
+                    walls = "{on: [x_min, x_max, y_min], velocity: [0, 0]}",
+                    halves =
+                        "  lower: {grid: {from: [0, 0], to: [1, 0.5], cells: [8, 4]}}\n"
+                        "  upper: {grid: {from: [0, 0.5], to: [1, 1], cells: [8, 4]}}\n";
+  const Run whole(cavity("  lower: {grid: {from: [0, 0], to: [1, 1], cells: [8, 8]}}\n", lid + walls, "", ""),
+                  "--quiet");
+  REQUIRE(whole.done.code == 0);
+  const double level = whole.series("p").back();
+  CHECK(std::abs(level) > 1e-3);
+  const std::string to_lower =
+                        "constraints: [{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}]\n",
+                    to_upper =
+                        "constraints: [{type: tied, fields: [lower, upper], boundaries: [y_max, y_min]}]\n";
+  for (const std::string& ties : {to_lower, to_upper})
+    for (const char* solver : {"--quiet", "--quiet --set solver.linear=krylov"})
+      for (const char* ranks : {"", "mpirun --oversubscribe -np 3"}) {
+        const Run run(cavity(halves, walls, lid + sides, ties), solver, ranks);
+        CAPTURE(ties, solver, ranks, run.done.output);
+        REQUIRE(run.done.code == 0);
+        CHECK(run.series("p").back() == Approx(level).epsilon(1e-8));
+      }
+  // What enters one patch may leave the other; what leaves neither is lost.
+  const std::string in =
+      "{on: x_min, velocity: [\"16*y*(0.5 - y)\", 0]}, {on: [x_max, y_min], velocity: [0, 0]}";
+  const auto out = [](const std::string& rate) {
+    return "{on: x_max, velocity: [\"" + rate +
+           "*(y - 0.5)*(1 - y)\", 0]}, {on: [x_min, y_max], velocity: [0, 0]}";
+  };
+  CHECK(Run(cavity(halves, in, out("16"), to_lower), "--quiet").done.code == 0);
+  CHECK_THAT(Run(cavity(halves, in, out("15"), to_lower), "--quiet").done.output,
+             Catch::Contains("nothing lets out of a closed part of it what is let in: 0.01953"));
+  // The lower one is open beside the upper one.
+  const std::string step =
+      "  lower: {grid: {from: [0, 0], to: [2, 0.5], cells: [16, 4]}}\n"
+      "  upper: {grid: {from: [0, 0.5], to: [1, 1], cells: [8, 4]}}\n";
+  for (const std::string& rate : {std::string("16"), std::string("15")})
+    CHECK(Run(cavity(step, in, out(rate), to_lower), "--quiet").done.code == 0);
+}
+
+TEST_CASE("a body that crosses a periodic boundary is refused, at the start and on its way") {
+  const auto channel = [](const std::string& bodies, const std::string& couplings) {
+    return fmt::format(R"yaml(
+title: A periodic channel with discs
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {{box: {{grid: {{from: [0, 0], to: [2, 1], cells: [16, 8]}}}}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 1
+    stabilisation: residual
+    boundary: [{{on: [y_min, y_max], velocity: [0, 0]}}]
+constraints:
+  - {{type: periodic, field: water, boundaries: [x_min, x_max]}}
+interfaces: {{{}}}
+coupling: [{}]
+time: {{end: 0.5, step: {{initial: 0.1}}}}
+)yaml",
+                       bodies, couplings);
+  };
+  const auto disc = [](const std::string& name, const std::string& x, const std::string& motion) {
+    return name + ": {type: cut, field: water, body: {type: circle, centre: [" + x + ", 0.53], radius: 0.2}" +
+           motion + "}";
+  };
+  const auto wall = [](const std::string& name, const std::string& velocity) {
+    return "{type: fluid_wall, on: " + name + ", velocity: [" + velocity + ", 0]}";
+  };
+  const std::string words = "a body reaches over the periodic boundary 'x_max' of field 'water' at (2, 0.";
+  refuses(channel(disc("one", "1.9", ""), wall("one", "0")), {"scene.yaml:15:5", words});
+  const std::string moves = ", motion: {translation: [t, 0]}";
+  const Run crosses(channel(disc("one", "1.6", moves), wall("one", "1")), "--quiet");
+  CAPTURE(crosses.done.output);
+  CHECK(crosses.done.code == 1);
+  CHECK_THAT(crosses.done.output, Catch::Contains(words) && Catch::Contains("last good state (t = 0.19"));
+  // One that stands for the part beyond.
+  const Run both(channel(disc("one", "1.9", "") + ", " + disc("two", "-0.1", ""),
+                         wall("one", "0") + ", " + wall("two", "0")),
+                 "--quiet");
+  CAPTURE(both.done.output);
+  CHECK(both.done.code == 0);
+}
+
+TEST_CASE("parts that are tied to each other and that nothing holds as a whole are found by check") {
+  const auto block = [](const std::string& more) {
+    return "{type: solid, mesh: lower, material: {type: neo_hookean, young: 100, poisson: 0.3}" + more +
+           "}\n";
+  };
+  const std::string head =
+      "title: Parts\ndimension: 2\nplugins: [solid]\nmeshes:\n"
+      "  lower: {grid: {from: [0, 0], to: [1, 1], cells: [4, 4]}}\n"
+      "  upper: {grid: {from: [0, 1], to: [1, 2], cells: [4, 4]}}\n";
+  const std::string
+      load = ", boundary: [{on: x_min, traction: [1, 0]}]",
+      base = ", boundary: [{on: y_min, displacement: [0, 0]}]",
+      upper =
+          "  upper: {type: solid, mesh: upper, material: {type: neo_hookean, young: 100, poisson: 0.3}}\n"
+          "constraints: [{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}]\n",
+      plate =
+          "  plate: {type: rigid_body, mesh: upper}\n"
+          "constraints: [{type: rigid, field: lower, body: plate, on: y_max}]\n";
+  for (const char* ranks : {"", "mpirun --oversubscribe -np 2"})
+    for (const std::string& other : {upper, plate}) {
+      const Folder folder;
+      const Result loose =
+          seam("check " + folder.file("scene.yaml", head + "fields:\n  lower: " + block("") + other), ranks);
+      CAPTURE(loose.output);
+      CHECK(loose.code == 2);
+      CHECK_THAT(loose.output,
+                 Catch::Contains("scene.yaml:8:3") &&
+                     Catch::Contains(
+                         "are tied to each other, and nothing holds them together: "
+                         "they can change by a rotation about z, a translation in x, a translation in y") &&
+                     Catch::Contains("'lower'"));
+      CHECK(Run(head + "fields:\n  lower: " + block(base) + other, "--quiet", ranks).done.code == 0);
+    }
+}
+
 TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   const std::string periodic = "{type: periodic, field: lower, boundaries: ";
   refuses(scene(periodic + "[x_min]}"), {"found 1 boundaries", "pairs"});
@@ -214,6 +394,16 @@ TEST_CASE("constraints that cannot be are refused, with what does not fit") {
   refuses(scene("{type: symmetry, field: lower, boundaries: [roof]}"), {"roof"});
   refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, x_max]}"),
           {"lies on no face of 'x_max' of field 'lower'"});
+  // Half a hundredth of a cell apart and in each other is as good as on each other, eight hundredths are not.
+  for (const double off : {0.02, -0.02}) {
+    const std::string grid = fmt::format("cells: [4, 4], map: [x, 'y + {}*y']", off);
+    refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}", grid),
+            {"scene.yaml:19:15", "lies on no face of 'y_max' of field 'lower'",
+             "the tied boundary must lie on the other one"});
+    const std::string near = fmt::format("cells: [4, 4], map: [x, 'y + {}*y']", off / 16);
+    CHECK(Run(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}", near), "--quiet")
+              .done.code == 0);
+  }
   refuses(scene("{type: tied, fields: [upper], boundaries: [y_min, y_max]}"),
           {"found 1 fields and 2 boundaries"});
   refuses(scene("{type: tied, fields: [upper, lower], boundaries: [y_min, y_max]}, {type: tied, fields: "

@@ -287,3 +287,19 @@ TEST_CASE("whole numbers that no int holds are refused") {
   CHECK(result.code == 2);
   CHECK_THAT(result.output, Contains("expected a whole number of no more than 2147483647"));
 }
+
+TEST_CASE("a constraint that fails on one rank ends the run on all of them, with its message", "[mpi]") {
+  const Folder folder;
+  for (const char* rank : {"0", "1"})
+    for (const char* at : {"0", "0.45"}) {
+      const std::string scene = folder.file(
+          "ties.yaml", pulled_by("{type: slow, seconds: 0, load: 1}", "slow") +
+                           "constraints: [{type: trouble, at: " + at + ", rank: \"" + rank + "\"}]\n");
+      const Result result =
+          run(folder, "r", "--overwrite", scene, "timeout 100 mpirun --oversubscribe -np 2 ");
+      CAPTURE(rank, at, result.output);
+      CHECK(result.code == 3);
+      CHECK_THAT(result.output, Contains("ties.yaml:17:15") && Contains("the knot came undone") &&
+                                    Contains("a constraint of plugin 'trouble'"));
+    }
+}

@@ -240,3 +240,27 @@ output: {fields: false}
   }
   CHECK(Run(around("{at: [0.3, 0.3]}, {at: [0.6, 0.3]}, {at: [0.6, 0.6]}, {at: [0.5, 0.4]}")).done.code == 0);
 }
+
+TEST_CASE("what acts on mass is warned of where there is none") {
+  const Folder folder;
+  const auto output = [&](const std::string& more) {
+    return seam("check " +
+                folder.file(
+                    "s.yaml",
+                    "title: a body\ndimension: 2\nplugins: [solid]\nmeshes: {one: {grid: {from: [0, 0], to: "
+                    "[1, 1], "
+                    "cells: [1, 1]}}}\nfields:\n  one: {type: rigid_body, mesh: one, stiffness: [1, 1], "
+                    "rotational_stiffness: 1" +
+                        more + "}\ntime: {end: 1, step: {initial: 0.5}}\n"))
+        .output;
+  };
+  CHECK_THAT(output(", body_force: [0, -1]"),
+             Catch::Contains("s.yaml:6:94: warning: field 'one' has no `density`, so that its `body_force`"));
+  CHECK_THAT(
+      output(", initial: {velocity: [1, 0]}"),
+      Catch::Contains("s.yaml:6:102: warning: field 'one' has no `density`, so that it does not go on with "
+                      "the `velocity`"));
+  CHECK_THAT(output(", density: 1, body_force: [0, -1], initial: {velocity: [1, 0]}"),
+             !Catch::Contains("warning"));
+  CHECK_THAT(output(", body_force: [0, 0]"), !Catch::Contains("warning"));
+}

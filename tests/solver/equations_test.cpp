@@ -9,6 +9,7 @@
 #include "seam/linear/equilibration.hpp"
 #include "seam/linear/mumps_solver.hpp"
 #include "seam/mesh/mesh.hpp"
+#include "seam/record/probes.hpp"
 #include "seam/solve/newton.hpp"
 #include "solver/diffusion.hpp"
 #include "solver/krylov.hpp"
@@ -218,4 +219,45 @@ TEST_CASE("what an unknown cannot declare is the plugin's fault") {
   CHECK_THROWS_WITH(declare({"u", 2, 1, 0, "m"}), Catch::Contains("does not say so: UnknownRole::motion"));
   CHECK_THROWS_AS(declare({"c", 1, 1, 0, "", UnknownRole::plain, NearNullspace::constants, std::nan("")}),
                   PluginFault);
+}
+
+namespace {
+
+/// x, and twice that as the second component.
+struct Places {
+  using Reads = Slots<Value<test::c>>;
+  static constexpr int values(int dim) { return dim; }
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>&, double* value) const {
+    for (int d = 0; d < dim; ++d) value[d] = (d + 1) * x.position[0];
+  }
+};
+
+/// Records integrals of one number and of a vector.
+class WithIntegrals final : public Physics {
+ public:
+  [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return {{"c", 1, 1, 0, ""}}; }
+  void build(FieldSetup& setup) const override {
+    setup.add_cell_term(make_term(test::Diffusion{1}), {"c"});
+    setup.add_integral("places", make_quantity(Places{}), {"c"});
+  }
+};
+
+}  // namespace
+
+TEST_CASE("an integral of a vector is recorded by its components") {
+  Problem problem{Communicator()};
+  problem.add_field("body",
+                    std::make_shared<Mesh>("box", test::box(CellType::quadrilateral, 2), Communicator()),
+                    std::make_unique<WithIntegrals>());
+  problem.finish();
+  problem.initialise(0);
+  Results results;
+  record_integrals(problem, time_point(0, 0, 1), results);
+  REQUIRE(results.series.size() == 2);
+  CHECK(results.series.at("body.places.x").at(0) == Approx(0.5));
+  CHECK(results.series.at("body.places.y").at(0) == Approx(1));
+  CHECK(is_series_of("body.places.y", "body.places"));
+  CHECK_FALSE(is_series_of("body.places.y", "body"));
+  CHECK_FALSE(is_series_of("body.places", "body.place"));
 }

@@ -7,6 +7,7 @@
 #include "diffusion.hpp"
 #include "seam/field/field.hpp"
 #include "seam/mesh/mesh.hpp"
+#include "seam/record/restart.hpp"
 
 using namespace seam;
 using Catch::Matchers::Contains;
@@ -110,6 +111,42 @@ TEST_CASE("a state is found again by global numbers", "[ranks]") {
   }
   const Communicator& communicator = mesh->communicator();
   CHECK(communicator.sum(static_cast<long long>(the_run(communicator)->owned())) == 1);
+}
+
+TEST_CASE("a run goes on from all levels that its next step looks back to", "[ranks]") {
+  const Communicator communicator;
+  const auto problem_with = [&](int levels) {
+    auto problem = test::diffusion_problem(CellType::quadrilateral, 4, {});
+    problem->finish();
+    problem->initialise(0);
+    const Mesh& mesh = *problem->fields()[0].mesh;
+    problem->state().add<double>({"history", cells_of(mesh), 2, levels});
+    return problem;
+  };
+  const auto history = [](Problem& problem) -> std::vector<std::vector<double>>& {
+    const std::vector<AnyState*> states = problem.state().states();
+    return dynamic_cast<StateArray<double>&>(**std::ranges::find(states, "history", &AnyState::name))
+        .all_levels();
+  };
+  const auto written = problem_with(4);
+  const Mesh& mesh = *written->fields()[0].mesh;
+  for (int step = 0; step < 4; ++step) {
+    written->state().advance();
+    for (int cell = 0; cell < mesh.cells(); ++cell)
+      for (int c = 0; c < 2; ++c)
+        history(*written)[0][static_cast<std::size_t>(cell) * 2 + c] =
+            100 * step + 2 * mesh.global_cell(cell) + c;
+  }
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("levels_on_" + std::to_string(communicator.size()));
+  write_restart(file, *written, {0, 1, 4, {}, {}, 0}, "run");
+  const auto read = problem_with(4);
+  static_cast<void>(read_restart(file, *read));
+  written->state().advance();
+  read->state().advance();
+  CHECK(history(*read) == history(*written));
+  const auto other = problem_with(3);
+  CHECK_THROWS_WITH(read_restart(file, *other), Contains("at 3 times") && Contains("at 2 times"));
 }
 
 TEST_CASE("an iteration goes back without the start of its step, but where sets of nodes may change") {

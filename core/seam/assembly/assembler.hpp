@@ -51,6 +51,8 @@ class Assembler {
   [[nodiscard]] std::vector<double> with_tied(std::vector<double> increment) const;
   /// Whether an owned row's unknown is tied to others.
   [[nodiscard]] bool is_tied(int row) const { return relation_[row] >= 0; }
+  /// Those of unknowns that this rank holds.
+  [[nodiscard]] const std::vector<Ties::Resolved>& ties() const { return resolved_; }
   /// Lets unknowns that others are tied to begin a step with the momentum that these hand on, at the present
   /// states and relations. Collective.
   void begin_momentum(const TimePoint& at);

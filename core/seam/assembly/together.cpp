@@ -5,11 +5,12 @@
 #include <string>
 
 #include "seam/base/all_or_none.hpp"
+#include "seam/base/plugin_fault.hpp"
 
 namespace seam {
 namespace {
 
-enum Outcome : int { done, refused, failed };
+enum Outcome : int { done, refused, failed, failed_in_plugin };
 
 }  // namespace
 
@@ -26,6 +27,10 @@ void together(const Communicator& communicator, const std::function<void()>& wor
   } catch (const StepRefused& error) {
     outcome = refused;
     message = error.what();
+  } catch (const PluginFault& error) {
+    outcome = failed_in_plugin;
+    message = error.what();
+    thrown = std::current_exception();
   } catch (const std::exception& error) {
     outcome = failed;
     message = error.what();
@@ -40,6 +45,7 @@ void together(const Communicator& communicator, const std::function<void()>& wor
   message = distinct_texts(communicator, outcome == worst ? message : "");
   if (worst == refused) throw StepRefused(message);
   if (thrown) std::rethrow_exception(thrown);
+  if (worst == failed_in_plugin) throw PluginFault(message);
   throw Error(message);
 }
 

@@ -2,13 +2,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "seam/base/disjoint_sets.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/constraint/types.hpp"
+#include "seam/constraint/watches_cut.hpp"
+#include "seam/cut/cut_mesh.hpp"
+#include "seam/field/field.hpp"
+#include "seam/mesh/mesh.hpp"
 #include "seam/plugin/registry.hpp"
 
 namespace seam {
@@ -21,7 +27,7 @@ struct SharedNode {
 };
 
 /// What a field has on one boundary continues on another one, a translation away.
-class Periodic final : public Constraint {
+class Periodic final : public Constraint, public WatchesCut {
  public:
   explicit Periodic(const Parameters& p)
       : where_(p.where()),
@@ -62,11 +68,97 @@ class Periodic final : public Constraint {
     }
   }
 
+  void look_at_cut(const TimePoint& at) const override {
+    if (field_->cut() == nullptr) return;
+    for (std::size_t k = 0; k < boundaries_.size(); k += 2) require_same_wet(k, at);
+  }
+
   void tie(Ties& ties, const TimePoint&) const override {
     for (const TiedBlock& of : blocks_) tie_block(ties, of);
   }
 
  private:
+  /// A face of a boundary, by its middle, and how much of it no body covers.
+  struct WetFace {
+    double middle[3];
+    double area, wet;
+  };
+
+  [[nodiscard]] std::vector<WetFace> wet_faces(const std::string& boundary) const {
+    const Mesh& mesh = field_->mesh();
+    const int dim = mesh.dimension();
+    std::vector<WetFace> own;
+    CutRule rule;
+    for (const CellFace& face : mesh.boundary(boundary)) {
+      if (face.cell >= mesh.owned_cells()) continue;
+      const std::vector<int>& corners = topology(mesh.type()).faces[face.face];
+      std::vector<std::array<double, 3>> x(corners.size());
+      WetFace& of = own.emplace_back(WetFace{{}, 0, 0});
+      for (std::size_t a = 0; a < corners.size(); ++a)
+        for (int d = 0; d < dim; ++d) {
+          x[a][d] = mesh.geometry(face.cell)[corners[a] * dim + d];
+          of.middle[d] += x[a][d] / static_cast<double>(corners.size());
+        }
+      of.area = area_of(x);
+      if (!field_->active_cells()[face.cell]) continue;
+      of.wet = of.area;
+      if (!field_->is_cut(face.cell)) continue;
+      field_->cut()->face_rule(face.cell, face.face, 1, rule);
+      of.wet = std::accumulate(rule.weight.begin(), rule.weight.end(), 0.0);
+    }
+    return mesh.communicator().gather_all(own);
+  }
+
+  /// Of a segment, a triangle, or a plane quadrilateral.
+  [[nodiscard]] static double area_of(const std::vector<std::array<double, 3>>& x) {
+    const auto way = [&](std::size_t from, std::size_t to) {
+      return std::array<double, 3>{x[to][0] - x[from][0], x[to][1] - x[from][1], x[to][2] - x[from][2]};
+    };
+    if (x.size() == 2) return std::hypot(way(0, 1)[0], way(0, 1)[1]);
+    const auto a = x.size() == 3 ? way(0, 1) : way(0, 2), b = x.size() == 3 ? way(0, 2) : way(1, 3);
+    return 0.5 * std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+  }
+
+  /// A body that reaches over a boundary ends there, and the field goes on where the rest of it should be.
+  /// @throws Error at the start, StepRefused in a step where a body covers one side and not the other
+  void require_same_wet(std::size_t pair, const TimePoint& at) const {
+    constexpr double rounding = 1e-6;  // of a face
+    const int dim = field_->mesh().dimension();
+    const std::vector<WetFace> first = wet_faces(boundaries_[pair]),
+                               second = wet_faces(boundaries_[pair + 1]);
+    double shift[3] = {};
+    for (int d = 0; d < dim; ++d) {
+      for (const WetFace& face : second) shift[d] += face.middle[d] / static_cast<double>(second.size());
+      for (const WetFace& face : first) shift[d] -= face.middle[d] / static_cast<double>(first.size());
+    }
+    const auto distance = [&](const WetFace& a, const WetFace& b) {
+      double square = 0;
+      for (int d = 0; d < dim; ++d) square += std::pow(b.middle[d] - a.middle[d] - shift[d], 2);
+      return square;
+    };
+    // Where bodies are on neither side there is nothing to look for.
+    const auto look = [&](const std::vector<WetFace>& faces, const std::vector<WetFace>& others,
+                          bool turned) {
+      for (const WetFace& face : faces) {
+        if (face.area - face.wet <= rounding * face.area) continue;
+        const WetFace& other = *std::ranges::min_element(
+            others, {}, [&](const WetFace& of) { return turned ? distance(of, face) : distance(face, of); });
+        if (other.wet - face.wet <= rounding * face.area) continue;
+        const std::string message = fmt::format(
+            "a body reaches over the periodic boundary '{}' of field '{}' at ({:.6g}), and nothing covers "
+            "the "
+            "place on '{}' where it would go on: keep bodies within the mesh, or let another one stand for "
+            "the part beyond",
+            boundaries_[pair + (turned ? 1 : 0)], name_, fmt::join(face.middle, face.middle + dim, ", "),
+            boundaries_[pair + (turned ? 0 : 1)]);
+        if (at.step > 0) throw StepRefused(message);
+        throw Error(where_, message);
+      }
+    };
+    look(first, second, false);
+    look(second, first, true);
+  }
+
   /// Nodes that are one and the same, over all pairs of boundaries: an edge may have four of them.
   using Class = std::vector<SharedNode>;
   struct TiedBlock {

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -9,6 +10,7 @@
 #include "seam/assembly/remote_cells.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/constraint/constraint.hpp"
+#include "seam/constraint/joins_fields.hpp"
 #include "seam/constraint/node_selection.hpp"
 #include "seam/constraint/types.hpp"
 #include "seam/cut/cell_search.hpp"
@@ -16,6 +18,41 @@
 
 namespace seam {
 namespace {
+
+/// How far a place lies from the plane or line of a face, in reference coordinates of its cell.
+double distance_to_face(const CellTopology& cell, int face, const std::vector<double>& x) {
+  const int dim = cell.dimension;
+  const std::vector<int>& corners = cell.faces[face];
+  const auto from_first = [&](const double* to) {
+    std::array<double, 3> way{};
+    for (int d = 0; d < dim; ++d) way[d] = to[d] - cell.node_coordinates[corners[0] * dim + d];
+    return way;
+  };
+  const auto edge = [&](int k) { return from_first(&cell.node_coordinates[corners[k] * dim]); };
+  const std::array<double, 3> a = edge(1), b = dim == 3 ? edge(2) : std::array<double, 3>{0, 0, 1};
+  const double normal[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  const std::array<double, 3> way = from_first(x.data());
+  return std::abs(normal[0] * way[0] + normal[1] * way[1] + normal[2] * way[2]) /
+         std::hypot(normal[0], normal[1], normal[2]);
+}
+
+/// How far off a face, in reference coordinates of its cell, what counts as on it may lie.
+constexpr double beside = 1e-2;
+
+double from_face(const PlaceInCell& place, CellType type, int face) {
+  return std::max(place.outside, distance_to_face(topology(type), face, place.reference));
+}
+
+/// The middle of a face's corners.
+std::vector<double> middle_of(const Mesh& mesh, const CellFace& face) {
+  const int dim = mesh.dimension();
+  const std::vector<int>& corners = topology(mesh.type()).faces[face.face];
+  std::vector<double> middle(dim, 0.0);
+  for (const int corner : corners)
+    for (int d = 0; d < dim; ++d)
+      middle[d] += mesh.geometry(face.cell)[corner * dim + d] / static_cast<double>(corners.size());
+  return middle;
+}
 
 /// The cells at a boundary, found by the boxes that their faces lie in.
 class FacesNearby {
@@ -25,7 +62,7 @@ class FacesNearby {
     const std::size_t per_face = static_cast<std::size_t>(topology(cell.face_type).nodes(whole.order));
     std::vector<std::pair<cutting::Vector, cutting::Vector>> boxes;
     for (const CellFace& face : faces) {
-      cells_.push_back(face.cell);
+      faces_.push_back(face);
       cutting::Vector low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
       if (dim_ == 2) low[2] = high[2] = 0;
       for (std::size_t a = 0; a < per_face; ++a) {
@@ -38,8 +75,8 @@ class FacesNearby {
         }
       }
       // Faces of curved surfaces that two meshes approximate in different ways lie beside each other.
-      constexpr double beside = 0.1;
-      const double margin = beside * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
+      constexpr double apart = 0.1;
+      const double margin = apart * std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
       for (int d = 0; d < dim_; ++d) {
         low[d] -= margin;
         high[d] += margin;
@@ -48,24 +85,24 @@ class FacesNearby {
     }
     search_ = std::make_unique<cutting::CellSearch>(boxes);
   }
-  /// Appends the global numbers of the cells whose face may be at x.
-  void find(const double* x, std::vector<int>& cells) const {
+  /// Appends the faces, of cells by global numbers, that may be at x.
+  void find(const double* x, std::vector<CellFace>& faces) const {
     cutting::Vector at{};
     std::copy_n(x, dim_, at.begin());
-    const auto first = static_cast<std::ptrdiff_t>(cells.size());
-    search_->find(at, at, cells);
-    std::sort(cells.begin() + first, cells.end());
-    std::for_each(cells.begin() + first, cells.end(), [&](int& found) { found = cells_[found]; });
+    std::vector<int> found;
+    search_->find(at, at, found);
+    std::ranges::sort(found);
+    for (const int face : found) faces.push_back(faces_[face]);
   }
 
  private:
   int dim_;
-  std::vector<int> cells_;
+  std::vector<CellFace> faces_;
   std::unique_ptr<cutting::CellSearch> search_;
 };
 
 /// The nodes of one boundary follow the field on another one.
-class Tied final : public Constraint {
+class Tied final : public Constraint, public JoinsFields {
  public:
   explicit Tied(const Parameters& p)
       : where_(p.where()),
@@ -84,6 +121,13 @@ class Tied final : public Constraint {
   void build(ConstraintSetup& setup) override {
     tied_ = &setup.field(names_[0]);
     master_ = &setup.field(names_[1]);
+    for (const Field* field : {tied_, master_})
+      if (field->sets() > 1)
+        throw Error(
+            where_,
+            fmt::format("field '{}' keeps parts of its cells apart (`parts: separate`): which of them "
+                        "what is tied goes with is not known; take it without",
+                        field->name()));
     if (unknowns_.empty())
       for (const Unknown& unknown : tied_->unknowns())
         if (!unknown.given) unknowns_.push_back(unknown.name);
@@ -101,8 +145,11 @@ class Tied final : public Constraint {
                        ? *known
                        : pairs_.emplace_back(find_places(setup, faces, from.block, to.block));
       for (int c = 0; c < from.components; ++c) pair.components.emplace_back(from.offset + c, to.offset + c);
+      if (from.components == 1) join(from, to, pair);
     }
   }
+
+  [[nodiscard]] const std::vector<JoinedFields>& joined() const override { return joined_; }
 
   void tie(Ties& ties, const TimePoint&) const override {
     for (const Pair& pair : pairs_) {
@@ -130,38 +177,84 @@ class Tied final : public Constraint {
     std::vector<Place> places;
   };
 
+  /// A number of one field goes on in the other one.
+  void join(const Field::ComponentRange& from, const Field::ComponentRange& to, const Pair& pair) {
+    JoinedFields& joined = joined_.emplace_back(
+        JoinedFields{{tied_, from.block, from.offset, {}}, {master_, to.block, to.offset, {}}, {}});
+    for (const Place& place : pair.places)
+      for (const auto& [node, share] : place.shares) joined.nodes.emplace_back(place.node, node);
+    const auto own_faces = [](const Field& field, const std::string& boundary) {
+      std::vector<CellFace> faces = field.mesh().boundary(boundary);
+      std::erase_if(faces, [&](const CellFace& face) { return face.cell >= field.mesh().owned_cells(); });
+      return faces;
+    };
+    joined.tied.faces = own_faces(*tied_, boundaries_[0]);
+    // The other boundary may be the larger one, and open beside what lies on it.
+    const MeshData& whole = tied_->mesh().whole();
+    const FacesNearby tied_faces(whole, whole.boundaries.at(boundaries_[0]));
+    joined.other.faces = own_faces(*master_, boundaries_[1]);
+    std::erase_if(joined.other.faces, [&](const CellFace& face) {
+      return !lies_on(whole, tied_faces, middle_of(master_->mesh(), face).data());
+    });
+  }
+
+  /// Whether a place lies on one of the tied faces, whose cells other ranks may own.
+  [[nodiscard]] bool lies_on(const MeshData& whole, const FacesNearby& faces, const double* x) const {
+    std::vector<CellFace> near;
+    faces.find(x, near);
+    return std::ranges::any_of(near, [&](const CellFace& face) {
+      RemoteCell cell{face.cell, 0, {}, {}};
+      for (int a = 0; a < whole.nodes_per_cell(); ++a) {
+        const int node = whole.cells[static_cast<std::size_t>(face.cell) * whole.nodes_per_cell() + a];
+        const double* at = &whole.coordinates[static_cast<std::size_t>(node) * whole.dimension];
+        cell.geometry.insert(cell.geometry.end(), at, at + whole.dimension);
+      }
+      ElementSide side;
+      cell.attach(side, *tied_);
+      const auto in_cell = locate(side, x);
+      return in_cell && from_face(*in_cell, whole.type, face.face) < beside;
+    });
+  }
+
   [[nodiscard]] Pair find_places(const ConstraintSetup& setup, const FacesNearby& faces, int from,
                                  int to) const {
     Pair pair{from, to, {}, {}};
     const Space& space = *tied_->blocks()[from].space;
     std::vector<int> nodes, cells;
+    std::vector<CellFace> near;
     std::vector<std::size_t> end;  // of each node's candidates
     for (const int node : setup.boundary_nodes(*tied_, from, boundaries_[0])) {
       if (node >= space.owned_nodes()) continue;
       nodes.push_back(node);
-      faces.find(space.position(node), cells);
-      end.push_back(cells.size());
+      faces.find(space.position(node), near);
+      end.push_back(near.size());
     }
+    for (const CellFace& face : near) cells.push_back(face.cell);
     const std::vector<RemoteCell> candidates = fetch_cells(*master_, cells);
     together(master_->mesh().communicator(), [&] {
       std::size_t k = 0;
       for (std::size_t n = 0; n < nodes.size(); ++n) {
         Place& place = pair.places.emplace_back(Place{nodes[n], {}});
-        double least = 1e-2;
-        for (; k < end[n]; ++k) look_at(candidates[k], space.position(nodes[n]), to, least, place);
+        double least = beside;
+        for (; k < end[n]; ++k)
+          look_at(candidates[k], near[k].face, space.position(nodes[n]), to, least, place);
         if (place.shares.empty()) throw nothing_there(space.position(nodes[n]));
       }
     });
     return pair;
   }
 
-  /// @param least how far the place in the best cell so far lies outside of it
-  void look_at(const RemoteCell& cell, const double* x, int block, double& least, Place& place) const {
+  /// @param least how far the place lies from the best face so far, in reference coordinates of its cell
+  void look_at(const RemoteCell& cell, int face, const double* x, int block, double& least,
+               Place& place) const {
     ElementSide side;
     cell.attach(side, *master_);
     const auto in_cell = locate(side, x);
-    if (!in_cell || !(in_cell->outside < least)) return;
-    least = in_cell->outside;
+    if (!in_cell) return;
+    const double away = std::max(
+        in_cell->outside, distance_to_face(topology(master_->mesh().type()), face, in_cell->reference));
+    if (!(away < least)) return;
+    least = away;
     ShapeTable table;
     tabulate(master_->mesh().type(), master_->blocks()[block].space->order(), in_cell->reference.data(), 1,
              false, table);
@@ -182,6 +275,7 @@ class Tied final : public Constraint {
   std::vector<std::string> names_, boundaries_, unknowns_;
   Field *tied_ = nullptr, *master_ = nullptr;
   std::vector<Pair> pairs_;
+  std::vector<JoinedFields> joined_;
 };
 
 }  // namespace

@@ -20,25 +20,49 @@ std::string field_of(const Parameters& p, const Problem& problem) {
   return problem.interfaces().at(p.text("interface")).front().domain->fields().front()->name();
 }
 
-/// Reactions are those of a field's first unknown.
-/// @throws Error where the boundaries prescribe others only
-void require_prescribed(const FieldEntry& entry, const std::vector<std::string>& boundaries) {
-  const Unknown& first = entry.field->unknowns().front();
-  std::string other;
-  for (const PrescribedCondition& condition : entry.conditions) {
-    const bool is_meant =
-        boundaries.end() != std::ranges::find(boundaries, condition.boundary) || condition.boundary.empty();
-    if (is_meant && condition.unknown == first.name) return;
-    if (is_meant) other = condition.unknown;
+/// The names of a vector's components, or of a symmetric tensor's.
+const std::vector<std::string>& names_of_components(std::size_t count) {
+  static const std::vector<std::string> axes{"x", "y", "z", "w"};
+  static const std::vector<std::string> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
+  return count == 6 ? tensor : axes;
+}
+
+/// Appends what one or several components are, under a name or under names of the components.
+void append(const std::string& name, const std::vector<double>& values, Results& results) {
+  if (values.size() == 1) {
+    results.series[name].push_back(values[0]);
+    return;
   }
-  if (other.empty()) return;
-  throw Error(
-      fmt::format("a reaction is what holds the first unknown of a field, here '{}', but on {} only "
-                  "'{}' is prescribed; that of another unknown cannot be recorded yet",
-                  first.name, fmt::join(boundaries, ", "), other));
+  const std::vector<std::string>& names = names_of_components(values.size());
+  for (std::size_t c = 0; c < values.size(); ++c)
+    results.series[name + "." + (c < names.size() ? names[c] : std::to_string(c + 1))].push_back(values[c]);
 }
 
 }  // namespace
+
+std::string unknown_of_reaction(const FieldEntry& entry, const std::vector<std::string>& boundaries) {
+  const std::vector<Unknown>& unknowns = entry.field->unknowns();
+  const auto is_prescribed = [&](const Unknown& unknown) {
+    return std::ranges::any_of(entry.conditions, [&](const PrescribedCondition& condition) {
+      return condition.unknown == unknown.name &&
+             (condition.boundary.empty() ||
+              std::ranges::find(boundaries, condition.boundary) != boundaries.end());
+    });
+  };
+  const auto found = std::ranges::find_if(unknowns, is_prescribed);
+  return (found == unknowns.end() ? unknowns.front() : *found).name;
+}
+
+bool is_series_of(const std::string& series, const std::string& name) {
+  if (!series.starts_with(name)) return false;
+  if (series == name) return true;
+  if (series[name.size()] != '.') return false;
+  const std::string component = series.substr(name.size() + 1);
+  const auto is_one_of = [&](std::size_t count) {
+    return std::ranges::find(names_of_components(count), component) != names_of_components(count).end();
+  };
+  return is_one_of(3) || is_one_of(6) || component.find_first_not_of("0123456789") == std::string::npos;
+}
 
 Probe::Probe(std::string name, const Parameters& p, Problem& problem)
     : name_(std::move(name)),
@@ -70,11 +94,10 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
   try {
     if (reaction_ && boundaries_.empty())
       throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
-    quantity_ = find_quantity(entry, exerted ? entry.field->unknowns().at(0).name : quantity_name_);
+    exerted_ = reaction_ ? unknown_of_reaction(entry, boundaries_) : entry.field->unknowns().at(0).name;
+    quantity_ = find_quantity(entry, exerted ? exerted_ : quantity_name_);
     if (moment_about_ && quantity_.components != entry.mesh->dimension())
-      throw Error(fmt::format("what '{}' exerts has no moment: '{}' is no vector", interface_,
-                              entry.field->unknowns().at(0).name));
-    if (reaction_) require_prescribed(entry, boundaries_);
+      throw Error(fmt::format("what '{}' exerts has no moment: '{}' is no vector", interface_, exerted_));
     if (quantity_.components == 1 && !component_.empty() && component_ != "magnitude" && !force_)
       throw Error(
           fmt::format("'{}' is one number, without components: leave `component` out", quantity_name_));
@@ -85,18 +108,16 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
 
 std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const {
   const FieldEntry& entry = problem.field(field_);
-  if (force_) return interface_force(problem, interface_, entry.field->unknowns().at(0).name, at);
+  if (force_) return interface_force(problem, interface_, exerted_, at);
   if (moment_about_) return interface_moment(problem, interface_, entry, *moment_about_, at);
   if (!interface_.empty()) return interface_integral(problem, interface_, quantity_, at);
-  if (reaction_) return reaction(problem, entry, entry.field->unknowns().at(0).name, boundaries_);
+  if (reaction_) return reaction(problem, entry, exerted_, boundaries_);
   if (point_) return point_->evaluate(entry, quantity_, at);
   return boundary_integral(entry, boundaries_, quantity_, at);
 }
 
 void Probe::record(Problem& problem, const TimePoint& at, Results& results) const {
   const std::vector<double> values = evaluate(problem, at);
-  static const std::vector<std::string> axes{"x", "y", "z", "w"};
-  static const std::vector<std::string> tensor{"xx", "yy", "zz", "xy", "yz", "xz"};
   if (component_ == "magnitude") {
     double square = 0;
     for (const double v : values) square += v * v;
@@ -108,13 +129,8 @@ void Probe::record(Problem& problem, const TimePoint& at, Results& results) cons
                   fmt::format("probe '{}': '{}' has {} component{}, no component '{}'", name_, quantity_name_,
                               values.size(), values.size() == 1 ? "" : "s", component_));
     results.series[name_].push_back(values[c]);
-  } else if (values.size() == 1) {
-    results.series[name_].push_back(values[0]);
   } else {
-    const auto& names = values.size() == 6 ? tensor : axes;
-    for (std::size_t c = 0; c < values.size(); ++c)
-      results.series[name_ + "." + (c < names.size() ? names[c] : std::to_string(c + 1))].push_back(
-          values[c]);
+    append(name_, values, results);
   }
 }
 
@@ -128,8 +144,8 @@ void record_integrals(Problem& problem, const TimePoint& at, Results& results) {
     const CellDomain cells(*entry.field, 2 * entry.field->order());
     for (const FieldQuantity& integral : entry.integrals) {
       const int components = integral.terms.front().term->signature(entry.mesh->dimension()).values;
-      const auto values = cell_integral(cells, {integral.terms, components}, at);
-      results.series[entry.name + "." + integral.name].push_back(values.at(0));
+      append(entry.name + "." + integral.name, cell_integral(cells, {integral.terms, components}, at),
+             results);
     }
   }
 }

@@ -31,10 +31,20 @@ class Probe {
   bool force_ = false;
   std::optional<std::array<double, 3>> moment_about_;
   bool reaction_ = false;
+  std::string exerted_;    ///< the unknown that a reaction holds, or that a force works on
   std::string component_;  ///< "", "x", "y", "z" or "magnitude"
 };
 
-/// Appends the integrals that each field's physics declares, as `field.name`. Collective.
+/// The unknown whose reaction is recorded on boundaries: the first one of the field that is prescribed there;
+/// where none is, the first one.
+[[nodiscard]] std::string unknown_of_reaction(const FieldEntry& entry,
+                                              const std::vector<std::string>& boundaries);
+
+/// Whether a series is what is recorded under a name, or a component of it.
+[[nodiscard]] bool is_series_of(const std::string& series, const std::string& name);
+
+/// Appends the integrals that each field's physics declares, as `field.name`, or `field.name.x`,
+/// `field.name.y`, ... for several components. Collective.
 void record_integrals(Problem& problem, const TimePoint& at, Results& results);
 
 }  // namespace seam

@@ -27,29 +27,48 @@ std::vector<AnyState*> lasting_states(const Problem& problem) {
   return states;
 }
 
-nlohmann::json describe(const AnyState& state) {
-  return {{"name", state.name()},
-          {"on", state.on().name()},
-          {"count", state.on().global_bound()},
-          {"size", state.size()}};
+/// Calls with all levels of a state, of whatever type its numbers are.
+template <class Use>
+auto with_levels(AnyState& state, Use&& use) {
+  if (auto* flags = dynamic_cast<StateArray<char>*>(&state)) return use(flags->all_levels());
+  return use(dynamic_cast<StateArray<double>&>(state).all_levels());
+}
+
+/// How many levels a run goes on from: the next step takes over all but the last one. That at the start of
+/// the last step is needed only where a state has one before it.
+std::size_t kept_levels(AnyState& state) {
+  return with_levels(state, [](const auto& levels) { return std::max<std::size_t>(levels.size(), 2) - 1; });
+}
+
+nlohmann::json describe(AnyState& state) {
+  nlohmann::json about = {{"name", state.name()},
+                          {"on", state.on().name()},
+                          {"count", state.on().global_bound()},
+                          {"size", state.size()}};
+  if (const std::size_t levels = kept_levels(state); levels > 1) about["levels"] = levels;
+  return about;
 }
 
 /// "water/order 1/value" with 3 numbers on each of 320 "node"
 std::string in_words(const nlohmann::json& state) {
   if (!state.is_object()) return state.dump();
   const auto text = [&](const char* key) { return state.value(key, nlohmann::json()).dump(); };
-  return fmt::format("{} with {} numbers on each of {} {}", text("name"), text("size"), text("count"),
-                     text("on"));
+  const std::string levels = state.contains("levels") ? fmt::format(" at {} times", text("levels")) : "";
+  return fmt::format("{} with {} numbers on each of {} {}{}", text("name"), text("size"), text("count"),
+                     text("on"), levels);
 }
 
-/// Present numbers by global number, on rank 0: [global number][component]. Collective.
-std::vector<double> collect(const AnyState& state) {
+/// The numbers of a level by global number, on rank 0: [global number][component]. Collective.
+std::vector<double> collect(AnyState& state, std::size_t level) {
   const Entities& on = state.on();
   const Communicator& communicator = on.communicator();
   std::vector<std::vector<int>> entities(communicator.size());
   std::vector<std::vector<double>> data(communicator.size());
   for (int e = 0; e < on.owned(); ++e) entities[0].push_back(on.global(e));
-  data[0] = state.numbers();
+  with_levels(state, [&](const auto& levels) {
+    const auto& from = levels[level];
+    data[0].assign(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(on.owned()) * state.size());
+  });
   const auto all_entities = communicator.exchange(entities);
   const auto all_data = communicator.exchange(data);
   if (communicator.rank() != 0) return {};
@@ -60,6 +79,20 @@ std::vector<double> collect(const AnyState& state) {
       std::copy_n(all_data[r].begin() + static_cast<std::ptrdiff_t>(k) * size, size,
                   result.begin() + static_cast<std::ptrdiff_t>(all_entities[r][k]) * size);
   return result;
+}
+
+/// Takes the numbers of a level: [global number][component].
+void take_level(AnyState& state, std::size_t level, const std::vector<double>& by_global_number) {
+  const Entities& on = state.on();
+  const auto size = static_cast<std::size_t>(state.size());
+  with_levels(state, [&](auto& levels) {
+    for (int e = 0; e < on.count(); ++e)
+      for (std::size_t c = 0; c < size; ++c) {
+        auto& number = levels[level][static_cast<std::size_t>(e) * size + c];
+        number = static_cast<std::remove_reference_t<decltype(number)>>(
+            by_global_number[static_cast<std::size_t>(on.global(e)) * size + c]);
+      }
+  });
 }
 
 std::string read_all(const std::filesystem::path& file) {
@@ -159,9 +192,9 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
     header["series"].push_back({{"name", name}, {"size", values.size()}});
     append(values);
   }
-  for (const AnyState* of : lasting_states(problem)) {
+  for (AnyState* of : lasting_states(problem)) {
     header["states"].push_back(describe(*of));
-    append(collect(*of));
+    for (std::size_t level = 0; level < kept_levels(*of); ++level) append(collect(*of, level));
   }
   all_or_none<FileError>(problem.communicator(), [&] {
     if (problem.communicator().rank() != 0) return;
@@ -204,7 +237,9 @@ RunState read_restart(const std::filesystem::path& file, Problem& problem) {
                       "the order of its "
                       "unknowns has changed, with which no run can go on",
                       file.string(), is_there ? in_words(states[which]) : "nothing", in_words(expected)));
-    of->take(take(static_cast<std::size_t>(of->on().global_bound()) * of->size()));
+    const std::size_t size = static_cast<std::size_t>(of->on().global_bound()) * of->size();
+    of->take(take(size));
+    for (std::size_t level = 1; level < kept_levels(*of); ++level) take_level(*of, level, take(size));
     ++which;
   }
   if (at != count) throw damaged_file(file);

@@ -9,6 +9,7 @@
 
 #include "seam/assembly/element.hpp"
 #include "seam/field/field.hpp"
+#include "seam/record/probes.hpp"
 #include "seam/scene/expression.hpp"
 
 namespace seam {
@@ -41,8 +42,11 @@ std::optional<std::string> unit_of_probe(const Parameters& p, const Problem& pro
   const std::vector<Unknown>& unknowns = entry->field->unknowns();
   const bool moment = quantity == "moment" && !interface.empty();
   if (quantity == "reaction" || moment || (quantity == "force" && !interface.empty())) {
-    // Of the first unknown: what works on a way, or on its rate, is a force.
-    const std::string& way = unknowns.front().unit;
+    // What works on a way, or on its rate, is a force.
+    const std::string acts_on = quantity == "reaction" && p.has("on")
+                                    ? unknown_of_reaction(*entry, p.names("on"))
+                                    : unknowns.front().name;
+    const std::string& way = std::ranges::find(unknowns, acts_on, &Unknown::name)->unit;
     return way == "m" || way == "m/s" ? std::optional<std::string>(moment ? "N m" : "N") : std::nullopt;
   }
   Units units;
@@ -124,13 +128,17 @@ Units series_units(const Scene& scene, const Registry& registry, const Problem& 
   for (const auto& [name, p] : scene.root.object("output").map("probes")) {
     const std::optional<std::string> unit = unit_of_probe(p, problem, scene, registry);
     for (const std::string& series : names)
-      if (unit && (series == name || series.starts_with(name + "."))) units[series] = *unit;
+      if (unit && is_series_of(series, name)) units[series] = *unit;
   }
   const int dimension = static_cast<int>(scene.root.integer("dimension"));
   Units result;
-  for (const std::string& series : names)
-    if (const auto found = units.find(series); found != units.end())
+  for (const std::string& series : names) {
+    auto found = units.find(series);
+    if (found == units.end())  // a component of what is declared
+      found = units.find(series.substr(0, series.rfind('.')));
+    if (found != units.end() && is_series_of(series, found->first))
       result[series] = unit_in_space(found->second, dimension);
+  }
   return result;
 }
 

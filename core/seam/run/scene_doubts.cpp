@@ -30,6 +30,7 @@ class Doubts {
     for (const Parameters& coupling : at_.scene.root.list("coupling")) look_at_wall(coupling);
     for (const Parameters& constraint : at_.scene.root.list("constraints"))
       if (constraint.type() == "periodic") look_at_periodic(constraint);
+    for (const auto& [name, field] : at_.scene.root.map("fields")) look_at_mass(name, field);
     return std::move(found_);
   }
 
@@ -171,6 +172,32 @@ class Doubts {
                  "is not the field '{}'",
                  name, body.name, body.field));
     }
+  }
+
+  /// A force per mass and a velocity at the start are nothing to a body without mass.
+  void look_at_mass(const std::string& name, const Parameters& field) {
+    if (field.type() != "solid" && field.type() != "rigid_body") return;  // others have several masses
+    const auto has_mass = [](const Parameters& of) { return of.has("density") && of.number("density") > 0; };
+    if (has_mass(field)) return;
+    if (field.type() == "solid" && field.has("regions") &&
+        std::ranges::any_of(field.list("regions"), has_mass))
+      return;
+    const auto warn_of = [&](Location where, const std::string& what) {
+      warn(std::move(where), fmt::format("field '{}' has no `density`, so that {}", name, what));
+    };
+    if (field.has("body_force") && std::ranges::any_of(field.vector_expression("body_force"), may_act))
+      warn_of(field.where("body_force"), "its `body_force`, a force per mass, does nothing");
+    if (!field.has("initial")) return;
+    const Parameters& initial = field.object("initial");
+    for (const char* key : {"velocity", "rotation_rate"})
+      if ((key == std::string("velocity") || field.type() == "rigid_body") && initial.has(key))
+        warn_of(initial.where(key), fmt::format("it does not go on with the `{}` that it starts with", key));
+  }
+
+  /// Whether a component of a load is not 0 at all times.
+  static bool may_act(const Expression& component) {
+    const double nowhere[3] = {};
+    return !component.is_constant() || component(nowhere, 3, 0) != 0;
   }
 
   /// Where a field goes on there is no boundary that a condition could be for.

@@ -271,8 +271,6 @@ void FieldBuilder::add_output(const std::string& name, std::shared_ptr<const Ter
 void FieldBuilder::add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
                                 std::vector<std::string> operands) {
   require_term(quantity.get(), true);
-  if (const int values = quantity->signature(dimension()).values; values != 1)
-    refuse(fmt::format("the integral '{}' is of {} numbers a point; it records one", name, values));
   add_quantity(entry_.integrals, name, std::move(quantity), operands);
 }
 

@@ -14,6 +14,8 @@
 #include "seam/assembly/together.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/base/stopwatch.hpp"
+#include "seam/constraint/joins_fields.hpp"
+#include "seam/constraint/watches_cut.hpp"
 #include "seam/cut/cut_mesh.hpp"
 #include "seam/cut/field_cut.hpp"
 #include "seam/field/field.hpp"
@@ -201,13 +203,14 @@ void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::ve
 void Problem::add_constraint(std::unique_ptr<Constraint> constraint, const Location& where) {
   FieldsForConstraint setup(*this);
   constraint->build(setup);
+  if (const auto* joins = dynamic_cast<const JoinsFields*>(constraint.get())) joins_.push_back(joins);
   constraints_.emplace_back(std::move(constraint), where);
 }
 
 void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
   entry.field->occupy(active, cut);
   for (auto& [domain, terms] : domains_) domain->update(*entry.field);
-  place_levels(entry);
+  place_levels(fields_, joins_, entry);
 }
 
 FieldCut& Problem::cut(FieldEntry& entry) {
@@ -224,7 +227,7 @@ void Problem::finish(double time, bool shape_derivatives) {
         block.prescribed[static_cast<std::size_t>(node) * block.size + condition.component] = 1;
     }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
-    place_levels(entry);
+    place_levels(fields_, joins_, entry);
     for (const LevelCondition& level : entry.levels)
       if (entry.cut) entry.cut->keep_at(level.open_boundaries);
     fields.push_back(entry.field.get());
@@ -517,7 +520,11 @@ SpaceChange Problem::update_cuts(const TimePoint& at) {
     if (!same) set_given(entry, at.time);  // nodes of further sets of unknowns may have come
     change = std::max(change, communicator_.any(!same) ? SpaceChange::unknowns : SpaceChange::geometry);
   }
-  if (change != SpaceChange::none) update_rates(at);
+  if (change != SpaceChange::none) {
+    for (const auto& [constraint, where] : constraints_)
+      if (const auto* watches = dynamic_cast<const WatchesCut*>(constraint.get())) watches->look_at_cut(at);
+    update_rates(at);
+  }
   cut_seconds_ += watch.seconds();
   return change;
 }
@@ -532,9 +539,11 @@ Ties Problem::ask_constraints(const TimePoint& at) {
   Ties ties(fields);
   for (const auto& [constraint, where] : constraints_) {
     ties.set_origin(where);
-    call_plugin(
-        where, [&, &of = *constraint] { return "a constraint" + plugin_of(of); },
-        [&, &of = *constraint] { of.tie(ties, at); });
+    // One that fails on a rank of its own would leave the others waiting for its ties.
+    together(communicator_, [&, &of = *constraint, &place = where] {
+      call_plugin(
+          place, [&] { return "a constraint" + plugin_of(of); }, [&] { of.tie(ties, at); });
+    });
   }
   return ties;
 }
@@ -574,8 +583,11 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   SpaceChange change = std::exchange(unfinished_, SpaceChange::unknowns);
   change = std::max(change, update_cuts(at));
   for (auto& [name, parts] : interfaces_)
-    for (InterfacePart& part : parts)
-      if (communicator_.any(part.domain->follow(at.time))) change = std::max(change, SpaceChange::geometry);
+    for (InterfacePart& part : parts) {
+      bool moved = false;
+      together(communicator_, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      if (communicator_.any(moved)) change = std::max(change, SpaceChange::geometry);
+    }
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
     if (update(at)) change = SpaceChange::unknowns;

@@ -18,6 +18,7 @@
 namespace seam {
 
 class Assembler;
+class JoinsFields;
 class CutMesh;
 class Field;
 class FieldCut;
@@ -214,7 +215,7 @@ class Problem {
   /// the node's equation is given up for it. It holds all the same if what is prescribed goes together: what
   /// is left of it flows in or out at that node, where there is nothing. From the last assembly, with its
   /// tangent. Collective. @throws Error where this is more than a part of what flows anywhere
-  void check_levels() const;
+  void check_levels();
   /// From now to the end of the step unknowns of fields that bodies cut may come but not go.
   void hold_spaces();
 
@@ -245,6 +246,7 @@ class Problem {
   std::map<std::string, std::vector<InterfacePart>> interfaces_;
   std::vector<InterfaceMeasure> measures_;
   std::vector<std::pair<std::unique_ptr<Constraint>, Location>> constraints_;
+  std::vector<const JoinsFields*> joins_;  ///< those of the constraints that are such
   std::vector<SpaceUpdate> space_updates_;
   SpaceChange unfinished_ = SpaceChange::none;  ///< of an update of spaces that was refused
   std::unique_ptr<Assembler> assembler_;

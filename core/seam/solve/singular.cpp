@@ -17,45 +17,125 @@
 namespace seam {
 namespace {
 
-/// A way in which a connected part of a field might change without resistance.
-struct Mode {
+/// A connected part of a field, and an unknown of it.
+struct Part {
   const FieldEntry* entry;
-  const Block* block;
+  const Unknown* unknown;
+  const ConnectedNodes* labels;
+  int label;
+  int block, first, components;  ///< where the unknown stands
+
+  [[nodiscard]] bool holds(const Field& field, const Block& of, int node, int component) const {
+    const int c = component - first;
+    return &field == entry->field.get() && &of == &field.blocks()[block] && c >= 0 && c < components &&
+           (*labels)[node] == label;
+  }
+  [[nodiscard]] bool is_vector() const { return components == entry->mesh->dimension(); }
+};
+
+/// A way in which a part, or several that are tied to each other, might change without resistance.
+struct Mode {
   std::string name;  ///< "a translation in x"
-  std::string unknown;
-  const ConnectedNodes* parts;
-  int part;               ///< of these
-  int first, components;  ///< of the unknown within the block
-  std::function<double(const double* x, int component)> value;
+  struct Share {
+    const Part* part;
+    std::function<double(const double* x, int component)> value;
+  };
+  std::vector<Share> shares;
 
   [[nodiscard]] double at(const Field& field, const Block& of, int node, int component) const {
-    const int c = component - first;
-    if (&field != entry->field.get() || &of != block || c < 0 || c >= components || (*parts)[node] != part)
-      return 0;
-    return value(block->space->position(node), c);
+    for (const Share& share : shares)
+      if (share.part->holds(field, of, node, component))
+        return share.value(of.space->position(node), component - share.part->first);
+    return 0;
   }
 };
 
-/// Constants of an unknown's components and, of a vector, rotations.
-void add_modes(const FieldEntry& entry, const Unknown& unknown, const ConnectedNodes& parts, int part,
-               std::vector<Mode>& modes) {
-  const Field::ComponentRange place = entry.field->place(unknown.name);
-  const Block& block = entry.field->blocks()[place.block];
-  const int dim = entry.mesh->dimension();
-  const bool vector = place.components == dim;
-  static const char axis[] = "xyz";
-  const auto add = [&](const std::string& name, std::function<double(const double*, int)> value) {
-    modes.push_back(
-        {&entry, &block, name, unknown.name, &parts, part, place.offset, place.components, std::move(value)});
+using Change = std::function<double(const double*, int)>;
+
+Change translation(int direction) {
+  return [direction](const double*, int c) { return c == direction ? 1.0 : 0.0; };
+}
+
+Change rotation(int axis) {
+  return [axis](const double* x, int c) {
+    return c == (axis + 1) % 3 ? -x[(axis + 2) % 3] : c == (axis + 2) % 3 ? x[(axis + 1) % 3] : 0.0;
   };
-  for (int d = 0; d < place.components; ++d)
-    add(vector ? fmt::format("a translation in {}", axis[d]) : "a constant",
-        [d](const double*, int c) { return c == d ? 1.0 : 0.0; });
-  if (!vector) return;
+}
+
+/// Constants of an unknown's components and, of a vector, rotations.
+void add_modes(const Part& part, std::vector<Mode>& modes) {
+  const int dim = part.entry->mesh->dimension();
+  static const char axis[] = "xyz";
+  for (int d = 0; d < part.components; ++d)
+    modes.push_back({part.is_vector() ? fmt::format("a translation in {}", axis[d]) : "a constant",
+                     {{&part, translation(d)}}});
+  if (!part.is_vector()) return;
   for (int r = dim == 2 ? 2 : 0; r < 3; ++r)
-    add(fmt::format("a rotation about {}", axis[r]), [r](const double* x, int c) {
-      return c == (r + 1) % 3 ? -x[(r + 2) % 3] : c == (r + 2) % 3 ? x[(r + 1) % 3] : 0.0;
-    });
+    modes.push_back({fmt::format("a rotation about {}", axis[r]), {{&part, rotation(r)}}});
+}
+
+/// The same of parts that are tied to each other: vectors move as one rigid body, in which bodies turn, and
+/// single numbers change by a constant.
+void add_modes(const std::vector<const Part*>& group, std::vector<Mode>& modes) {
+  const int dim = group.front()->entry->mesh->dimension();
+  static const char axis[] = "xyz";
+  // What a rigid body turns by is tied together with what it is moved by.
+  const auto is_turn = [&](const Part& part) {
+    return part.entry->physics->support() == Support::point && part.unknown->role == UnknownRole::plain &&
+           part.components == (dim == 2 ? 1 : 3) && part.unknown->unit == "rad";
+  };
+  if (std::ranges::any_of(group, [](const Part* part) { return part->is_vector(); })) {
+    for (int d = 0; d < dim; ++d) {
+      Mode& mode = modes.emplace_back(Mode{fmt::format("a translation in {}", axis[d]), {}});
+      for (const Part* part : group)
+        if (part->is_vector() && !is_turn(*part)) mode.shares.push_back({part, translation(d)});
+    }
+    for (int r = dim == 2 ? 2 : 0; r < 3; ++r) {
+      Mode& mode = modes.emplace_back(Mode{fmt::format("a rotation about {}", axis[r]), {}});
+      for (const Part* part : group)
+        if (is_turn(*part))
+          mode.shares.push_back({part, translation(dim == 2 ? 0 : r)});
+        else if (part->is_vector())
+          mode.shares.push_back({part, rotation(r)});
+    }
+    return;
+  }
+  Mode& mode = modes.emplace_back(Mode{"a constant", {}});
+  for (const Part* part : group) mode.shares.push_back({part, translation(0)});
+}
+
+/// Parts of several fields that are tied to each other, directly or by others. Collective.
+std::vector<std::vector<const Part*>> tied_groups(Problem& problem, const std::vector<Part>& parts) {
+  std::vector<std::pair<const Field*, int>> blocks;  // by the numbers that ties know them by
+  for (const FieldEntry& entry : problem.fields())
+    for (std::size_t b = 0; b < entry.field->blocks().size(); ++b)
+      blocks.emplace_back(entry.field.get(), static_cast<int>(b));
+  const auto find = [&](const UnknownPlace& place) {
+    const auto [field, number] = blocks[place.block];
+    const Block& block = field->blocks()[number];
+    const int node = block.space->local_node(place.node);
+    if (node < 0) return -1;
+    const auto found = std::ranges::find_if(
+        parts, [&, &of = *field](const Part& part) { return part.holds(of, block, node, place.component); });
+    return found == parts.end() ? -1 : static_cast<int>(found - parts.begin());
+  };
+  std::set<std::pair<int, int>> tied;
+  for (const Ties::Resolved& tie : problem.assembler().ties())
+    for (const TiedTo& to : tie.to) {
+      if (to.unknown.is_clock()) continue;
+      const int one = find(tie.unknown), two = find(to.unknown);
+      if (one >= 0 && two >= 0) tied.emplace(one, two);
+    }
+  DisjointSets sets(static_cast<int>(parts.size()));
+  const std::vector<std::pair<int, int>> own(tied.begin(), tied.end());
+  for (const auto& [one, two] : problem.communicator().gather_all(own)) sets.unite(one, two);
+  std::map<int, std::vector<const Part*>> groups;
+  for (std::size_t k = 0; k < parts.size(); ++k) groups[sets.root(static_cast<int>(k))].push_back(&parts[k]);
+  std::vector<std::vector<const Part*>> result;
+  for (auto& [root, group] : groups)
+    if (std::ranges::any_of(group, [&](const Part* part) { return part->entry != group.front()->entry; }))
+      result.push_back(std::move(group));
+  return result;
 }
 
 /// How much of what each mode does to each equation is left when it is added up: |K m| / (|K| |m|), the
@@ -65,14 +145,18 @@ std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes
   const Assembler& assembler = problem.assembler();
   std::vector vectors(modes.size(), std::vector<double>(assembler.matrix().rows, 0.0));
   for (std::size_t m = 0; m < modes.size(); ++m) {
-    const Field& field = *modes[m].entry->field;
-    const Block& block = *modes[m].block;
-    const int number = field.place(modes[m].unknown).block;
-    for (int node = 0; node < block.space->owned_nodes(); ++node)
-      for (int c = 0; c < block.size; ++c)
-        // What is tied follows: its column acts through what it is tied to.
-        if (const int row = assembler.row(field, number, node, c); row >= 0 && !assembler.is_tied(row))
-          vectors[m][row] = modes[m].at(field, block, node, c);
+    for (const Mode::Share& share : modes[m].shares) {
+      const Field& field = *share.part->entry->field;
+      const Block& block = field.blocks()[share.part->block];
+      for (int node = 0; node < block.space->owned_nodes(); ++node)
+        for (int c = share.part->first; c < share.part->first + share.part->components; ++c) {
+          if (!share.part->holds(field, block, node, c)) continue;
+          // What is tied follows: its column acts through what it is tied to.
+          const int row = assembler.row(field, share.part->block, node, c);
+          if (row >= 0 && !assembler.is_tied(row))
+            vectors[m][row] = share.value(block.space->position(node), c - share.part->first);
+        }
+    }
   }
   const std::vector<std::vector<double>> products = multiply(assembler.matrix(), vectors);
   std::vector<double> result(modes.size(), 0.0);
@@ -89,7 +173,8 @@ std::vector<double> resistances(Problem& problem, const std::vector<Mode>& modes
         assembler.absolute_product([&](const Field& field, const Block& block, int node, int c) {
           const double change = modes[m].at(field, block, node, c);
           if (change == 0) return change;
-          const int row = assembler.row(field, field.place(modes[m].unknown).block, node, c);
+          const auto number = static_cast<int>(&block - field.blocks().data());
+          const int row = assembler.row(field, number, node, c);
           return row >= 0 && assembler.is_tied(row) ? 0.0 : change;
         }));
     for (std::size_t kind = 0; kind < left.size(); ++kind)
@@ -162,25 +247,53 @@ std::string describe_parts(const FieldEntry& entry) {
 }  // namespace
 
 std::string describe_free_modes(Problem& problem, double resistance, bool levels_only) {
-  std::list<ConnectedNodes> parts;
-  std::vector<Mode> modes;
+  std::list<ConnectedNodes> labels;
+  std::vector<Part> parts;
   for (const FieldEntry& entry : problem.fields())
     for (const Unknown& unknown : entry.field->unknowns()) {
       const auto [block, offset, components] = entry.field->place(unknown.name);
       if (entry.field->blocks()[block].given || (levels_only && components > 1)) continue;
-      parts.emplace_back(*entry.field, block);
-      for (const int part : parts.back().parts()) add_modes(entry, unknown, parts.back(), part, modes);
+      labels.emplace_back(*entry.field, block);
+      for (const int label : labels.back().parts())
+        parts.push_back({&entry, &unknown, &labels.back(), label, block, offset, components});
     }
+  std::vector<Mode> modes;
+  for (const Part& part : parts) add_modes(part, modes);
+  const std::size_t single = modes.size();
+  for (const std::vector<const Part*>& group : tied_groups(problem, parts)) add_modes(group, modes);
   const std::vector<double> found = resistances(problem, modes);
   std::map<std::pair<const FieldEntry*, std::string>, std::set<std::string>> free;
-  for (std::size_t m = 0; m < modes.size(); ++m)
-    if (found[m] < resistance) free[{modes[m].entry, modes[m].unknown}].insert(modes[m].name);
+  std::map<std::string, std::set<std::string>> free_together;  // by the names of the fields
+  std::set<const FieldEntry*> named;
+  for (std::size_t m = 0; m < modes.size(); ++m) {
+    if (!(found[m] < resistance)) continue;
+    if (m < single) {
+      const Part& part = *modes[m].shares.front().part;
+      free[{part.entry, part.unknown->name}].insert(modes[m].name);
+      named.insert(part.entry);
+      continue;
+    }
+    std::vector<std::string> fields;
+    bool is_told = false;
+    for (const Mode::Share& share : modes[m].shares) {
+      is_told = is_told || named.contains(share.part->entry);
+      const std::string name = fmt::format("'{}'", share.part->entry->name);
+      if (std::ranges::find(fields, name) == fields.end()) fields.push_back(name);
+    }
+    if (!is_told) free_together[fmt::format("{}", fmt::join(fields, ", "))].insert(modes[m].name);
+  }
   std::string text;
   for (const auto& [of, names] : free)
     text += fmt::format(
         "field '{}' is not held: its {} can change by {} without resistance; prescribe it somewhere, couple "
         "the field to another, or tie it to one ({})\n",
         of.first->name, of.second, fmt::join(names, ", "), how_to_tie);
+  for (const auto& [fields, names] : free_together)
+    text += fmt::format(
+        "the fields {} are tied to each other, and nothing holds them together: they can change by {} "
+        "without "
+        "resistance; prescribe something of one of them, or couple one to another field\n",
+        fields, fmt::join(names, ", "));
   for (const auto& [of, names] : free) text += describe_parts(*of.first);
   return text.empty() && !levels_only ? describe_idle(problem) : text;
 }

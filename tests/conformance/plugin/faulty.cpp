@@ -101,7 +101,6 @@ class Faulty final : public Physics {
     if (how_ == "null quantity") setup.add_output("heat", nullptr, operands);
     if (how_ == "quantity as term") setup.add_cell_term(make_quantity(Numbers<1>{}), operands);
     if (how_ == "term as quantity") setup.add_output("heat", make_term(Radiation{}), operands);
-    if (how_ == "integral of two") setup.add_integral("two", make_quantity(Numbers<2>{}), operands);
     if (how_ == "build throws") throw std::runtime_error("stoi");
     setup.add_cell_term(make_term(Conduction{how_}), operands);
     if (how_ == "nothing") setup.add_cell_term(make_term(Radiation{}), operands);

@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "seam/constraint/constraint.hpp"
 #include "seam/plugin/plugin.hpp"
 #include "seam/run/interruption.hpp"
 #include "seam/scene/function.hpp"
@@ -77,6 +78,22 @@ class Trouble final : public Function {
   std::string what_, rank_;
 };
 
+/// Ties nothing, until a time at which it fails on one rank.
+class TroubleWithTies final : public seam::Constraint {
+ public:
+  explicit TroubleWithTies(const Parameters& p) : at_(p.number("at")), rank_(p.text("rank")) {}
+  void build(seam::ConstraintSetup& /*setup*/) override {}
+  void tie(seam::Ties& /*ties*/, const seam::TimePoint& at) const override {
+    const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+    if (at.time < at_ || rank_ != (rank ? rank : "0")) return;
+    throw std::runtime_error("the knot came undone");
+  }
+
+ private:
+  double at_;
+  std::string rank_;
+};
+
 }  // namespace
 
 SEAM_PLUGIN(registry) {
@@ -97,4 +114,11 @@ SEAM_PLUGIN(registry) {
   registry.add<Function>(
       "function", "trouble", trouble,
       [](const Parameters& p, const seam::Registry& /*registry*/) { return std::make_unique<Trouble>(p); });
+  seam::Schema ties("A constraint that ends the run.");
+  ties.number("at", "when");
+  ties.text("rank", "to which it happens").otherwise("0");
+  registry.add<seam::Constraint>("constraint", "trouble", ties,
+                                 [](const Parameters& p, const seam::Registry& /*registry*/) {
+                                   return std::make_unique<TroubleWithTies>(p);
+                                 });
 }
