@@ -186,6 +186,10 @@ output: {{fields: false}}
                          (folder.path / "out").string());
   CAPTURE(done.output);
   CHECK(done.code == 1);
+  CHECK_THAT(done.output, Catch::Contains("the surface of 'skin' has passed through an obstacle") &&
+                              Catch::Contains("more than the interface's `depth` of 0.1 m") &&
+                              Catch::Contains("as `gap` tells") &&
+                              Catch::Contains("a greater `surface_stiffness`"));
   const std::string series = folder.read("out/series.csv");
   const auto gap = column(series, "floor.gap");
   CHECK(*std::ranges::min_element(gap) > -0.1);
