@@ -58,7 +58,7 @@ class ContactCoupling final : public Coupling {
   }
 
   void check_beside(const std::vector<Neighbour>& all, std::size_t self) const override {
-    check_stresses(all, self);
+    check_looks(all, self);
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {

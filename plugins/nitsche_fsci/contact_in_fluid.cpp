@@ -70,7 +70,7 @@ class ContactInFluid final : public Coupling {
   }
 
   void check_beside(const std::vector<Neighbour>& all, std::size_t self) const override {
-    check_stresses(all, self);
+    check_looks(all, self);
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {

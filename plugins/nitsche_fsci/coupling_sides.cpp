@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "seam/field/field.hpp"
 #include "trace_eigenvalue.hpp"
 
@@ -97,25 +99,71 @@ void declare_surface_stiffness(Schema& schema) {
       .optional();
 }
 
-void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t self) {
-  const Parameters& mine = all[self].parameters;
+namespace {
+
+using Neighbour = Coupling::Neighbour;
+
+/// The couplings of the same type that look from the other body back at this one's.
+std::vector<const Neighbour*> looks_back(const std::vector<Neighbour>& all, std::size_t self) {
+  std::vector<const Neighbour*> result;
+  std::vector<std::string> fields = all[self].fields;
+  if (fields.size() < 2) return result;  // a rigid obstacle does not look back
+  std::swap(fields.back(), fields[fields.size() - 2]);
+  for (const Neighbour& other : all)
+    if (other.parameters.type() == all[self].parameters.type() && other.fields == fields)
+      result.push_back(&other);
+  return result;
+}
+
+void check_stresses(const Neighbour& self, const std::vector<const Neighbour*>& back) {
+  const Parameters& mine = self.parameters;
   const std::string& whose = mine.text("stress");
   if (whose == "both") return;
-  std::vector<std::string> looks_back = all[self].fields;
-  if (looks_back.size() < 2) return;  // a rigid obstacle has no stress
-  std::swap(looks_back.back(), looks_back[looks_back.size() - 2]);
-  for (const Coupling::Neighbour& other : all) {
-    if (other.parameters.type() != mine.type() || other.fields != looks_back) continue;
-    if (other.parameters.text("stress") != whose) continue;
+  for (const Neighbour* other : back) {
+    if (other->parameters.text("stress") != whose) continue;
     throw Error(
         mine.where("stress"),
         fmt::format("`stress: {}` on both looks of '{}' and '{}' at each other: each body is told "
                     "that {} stress is the right one, and forces do not balance; write `own` in one "
                     "of the two couplings and `other` in the other one, or `both` in both. The other "
                     "one stands at {}",
-                    whose, looks_back[looks_back.size() - 2], looks_back.back(),
-                    whose == "own" ? "its own" : "the other's", other.parameters.where("stress").text()));
+                    whose, self.fields.back(), self.fields[self.fields.size() - 2],
+                    whose == "own" ? "its own" : "the other's", other->parameters.where("stress").text()));
   }
+}
+
+/// Each rigid body is pushed with the stiffness of its own look: a difference is a force out of nothing. Of
+/// bodies that may touch at several places one of the looks back has to agree.
+void check_stiffnesses(const Neighbour& self, const std::vector<const Neighbour*>& back) {
+  const Parameters& mine = self.parameters;
+  const auto acts_back = [](const Parameters& p) { return p.has("acts_on") && p.text("acts_on") == "both"; };
+  if (!mine.has("surface_stiffness")) return;
+  const double stiffness = mine.number("surface_stiffness");
+  const Parameters* differs = nullptr;
+  for (const Neighbour* other : back) {
+    const Parameters& p = other->parameters;
+    if (!p.has("surface_stiffness") || (acts_back(mine) && acts_back(p))) continue;
+    constexpr double rounding = 1e-12;
+    if (std::abs(p.number("surface_stiffness") - stiffness) <= rounding * stiffness) return;
+    differs = &p;
+  }
+  if (differs == nullptr) return;
+  throw Error(
+      mine.where("surface_stiffness"),
+      fmt::format(
+          "a `surface_stiffness` of {:.6g} Pa/m where '{}' looks at '{}', and of {:.6g} Pa/m where that "
+          "looks back, at {}: each body is pushed with its own, so that forces do not balance and "
+          "energy comes from nothing; expected the same in both",
+          stiffness, self.fields[self.fields.size() - 2], self.fields.back(),
+          differs->number("surface_stiffness"), differs->where("surface_stiffness").text()));
+}
+
+}  // namespace
+
+void check_looks(const std::vector<Neighbour>& all, std::size_t self) {
+  const std::vector<const Neighbour*> back = looks_back(all, self);
+  check_stresses(all[self], back);
+  check_stiffnesses(all[self], back);
 }
 
 BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int own, int other,

@@ -31,9 +31,10 @@ std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const
 
 /// Adds the key `stress`: whose stress stands for that between the bodies.
 void declare_stress(Schema& schema);
-/// Of two looks of a pair of surfaces at each other, each of which says whose stress counts.
-/// @throws Error where both say `own`, or both say `other`: then forces do not balance
-void check_stresses(const std::vector<Coupling::Neighbour>& all, std::size_t self);
+/// Of two looks of a pair of surfaces at each other, each of which says whose stress counts, or how stiff
+/// rigid surfaces are.
+/// @throws Error where forces do not balance: both say `own`, or `other`, or stiffnesses differ
+void check_looks(const std::vector<Coupling::Neighbour>& all, std::size_t self);
 /// Adds the key `surface_stiffness` of two rigid bodies.
 void declare_surface_stiffness(Schema& schema);
 /// Of a body beside an obstacle, or of two, of which a rigid one has no stress.

@@ -142,3 +142,38 @@ TEST_CASE("a surface encloses the points that lie deep inside of it") {
   CHECK_FALSE(ring.encloses(outside, direction, 0.1));
   CHECK_FALSE(ring.encloses(middle, direction, 0.1, [](int) { return true; }));
 }
+
+TEST_CASE("what a surface encloses does not depend on how it is turned", "[sanitized]") {
+  // Its sides are long: boxes around them hold most of what is inside of it.
+  for (const double angle : {0.0, 0.1, 0.2, 0.5, 1.0, -0.7, 1.5707963267948966}) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    Surface box;
+    for (const auto& [x, y] : {std::pair{-5.0, -1.0}, {5.0, -1.0}, {5.0, 0.0}, {-5.0, 0.0}})
+      box.points.insert(box.points.end(), {c * x - s * y, s * x + c * y});
+    box.facets = {0, 1, 1, 2, 2, 3, 3, 0};
+    const FacetSearch search(box);
+    const auto encloses = [&](double x, double y, double margin) {
+      const double at[] = {c * x - s * y, s * x + c * y}, down[] = {s, -c};
+      return search.encloses(at, down, margin);
+    };
+    CAPTURE(angle);
+    CHECK(encloses(0, -0.09, 0));
+    CHECK(encloses(0, -0.11, 0.1));
+    CHECK_FALSE(encloses(0, -0.09, 0.1));
+    CHECK(encloses(4.89, -0.5, 0.1));
+    CHECK_FALSE(encloses(4.91, -0.5, 0.1));
+    CHECK_FALSE(encloses(0, 0.01, 0));
+  }
+}
+
+TEST_CASE("how deep in a body of triangles a point lies is measured to them, not to their boxes") {
+  const FacetSearch search(octahedron(1));
+  const double direction[] = {0, 0, 1};
+  // The distance of the centre from the faces is 1/sqrt(3), far inside of their boxes.
+  const double centre[] = {0.001, 0.002, 0.003};
+  CHECK(search.encloses(centre, direction, 0.57));
+  CHECK_FALSE(search.encloses(centre, direction, 0.58));
+  const double near_a_corner[] = {0.9, 0.0, 0.001};  // 0.1/sqrt(3) from four of them
+  CHECK(search.encloses(near_a_corner, direction, 0.05));
+  CHECK_FALSE(search.encloses(near_a_corner, direction, 0.06));
+}

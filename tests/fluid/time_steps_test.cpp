@@ -46,6 +46,32 @@ TEST_CASE(
   CHECK(stepper.after_success(10, 0.05, 0.02, 0, 3) == Approx(0.05));
 }
 
+TEST_CASE("a length that goes on failing is tried less and less often, and again where it works") {
+  Refusals refusals;
+  // Lengths of 1 fail, those of 1/2 do not.
+  std::vector<int> taken{0};
+  double step = 1;
+  for (int attempt = 0; attempt < 400; ++attempt) {
+    if (step > 0.75) {
+      refusals.refuse(step);
+      taken.push_back(0);
+      step /= 2;
+    } else {
+      ++taken.back();
+      step = refusals.accept(step, step, 1);
+    }
+  }
+  taken.resize(9);
+  CHECK(taken == std::vector<int>{0, 1, 3, 5, 9, 17, 33, 65, 65});
+  // One that works now is planned from then on.
+  refusals.waiting = 0;
+  for (int k = 0; k < 7; ++k) CHECK(refusals.accept(1, 1, 1) == 1);
+  CHECK(refusals.length == 0);
+  // A single refusal changes nothing of what was planned otherwise.
+  refusals.refuse(1);
+  CHECK(refusals.accept(0.5, 0.5, 1) == 1);
+}
+
 TEST_CASE("the error in time is relative to the largest state so far, and cut cells count by what is wet") {
   Prepared flow(Overrides{});
   Problem& problem = flow.session().problem();

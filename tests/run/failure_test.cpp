@@ -172,6 +172,27 @@ TEST_CASE("whatever a step throws, its run is recorded", "[sanitized]") {
   }
 }
 
+TEST_CASE(
+    "iterations of the first step that go astray shorten it; a matrix singular from the start ends the run",
+    "[sanitized]") {
+  const Folder folder;
+  const auto failing = [&](const std::string& at) {
+    const std::string scene =
+        folder.file("failing.yaml", pulled_by("{type: slow, seconds: 0, load: 1}", "slow"));
+    return run(folder, "r", "--overwrite --set solver.linear='{type: failing, at: " + at + "}'", scene);
+  };
+  const Result astray = failing("2");
+  INFO(astray.output);
+  CHECK(astray.code == 0);
+  const auto events = folder.read("r/events.jsonl");
+  CHECK_THAT(events, Contains("the matrix of this solve is singular"));
+  CHECK(json(folder, "r/summary.json")["rejected_steps"] == 1);
+  check_table(folder.read("r/series.csv"), 12);  // the first step in two halves
+  const Result at_once = failing("1");
+  CHECK(at_once.code == 1);
+  CHECK_THAT(at_once.output, Contains("error: the matrix of this solve is singular"));
+}
+
 TEST_CASE("a rank that dies takes the others with it, and the run goes on from its last restart point",
           "[mpi]") {
   const Folder folder;

@@ -155,6 +155,48 @@ output: {{fields: false, probes: {{top: {{field: lower, at: [0.98, 0.5], quantit
   for (std::size_t k = 0; k < time.size(); ++k) CHECK(top[k] < 0.05 - 4 * time[k] + 0.09);
 }
 
+TEST_CASE("a rigid disc does not sink through a soft floor, however that is turned") {
+  const double angle = GENERATE(0.0, 0.2, -0.7, 1.5707963267948966);
+  CAPTURE(angle);
+  const Folder folder;
+  // It falls by more than the floor can hold.
+  const std::string scene = fmt::format(R"yaml(
+title: A disc that falls on a soft floor
+dimension: 2
+plugins: [solid, nitsche_fsci]
+parameters: {{a: {}, c: cos(a), s: sin(a)}}
+meshes:
+  disc:
+    grid:
+      from: [-1, -1]
+      to: [1, 1]
+      cells: [6, 6]
+      map: ["c*0.2*x*sqrt(1 - y^2/2) - s*(0.25 + 0.2*y*sqrt(1 - x^2/2))", "s*0.2*x*sqrt(1 - y^2/2) + c*(0.25 + 0.2*y*sqrt(1 - x^2/2))"]
+fields:
+  disc: {{type: rigid_body, mesh: disc, density: 100, body_force: [9.81*s, -9.81*c]}}
+  skin: {{type: rigid_surface, mesh: disc}}
+constraints: [{{type: rigid, field: skin, body: disc}}]
+interfaces: {{floor: {{type: obstacle, from: skin, body: {{type: box, from: [-5, -1], to: [5, 0]}}, motion: {{rotation: a}}, reach: 0.2, depth: 0.1}}}}
+coupling: [{{type: contact, on: floor, surface_stiffness: 1e4}}]
+time: {{theta: 0.5, end: 0.4, step: {{initial: 2e-3, minimum: 1e-5}}}}
+output: {{fields: false}}
+)yaml",
+                                        angle);
+  const auto done = seam("run " + folder.file("scene.yaml", scene) + " --quiet --no-picture --folder " +
+                         (folder.path / "out").string());
+  CAPTURE(done.output);
+  CHECK(done.code == 1);
+  CHECK_THAT(done.output, Catch::Contains("the surface of 'skin' has passed through an obstacle") &&
+                              Catch::Contains("more than the interface's `depth` of 0.1 m") &&
+                              Catch::Contains("as `gap` tells") &&
+                              Catch::Contains("a greater `surface_stiffness`"));
+  const std::string series = folder.read("out/series.csv");
+  const auto gap = column(series, "floor.gap");
+  CHECK(*std::ranges::min_element(gap) > -0.1);
+  CHECK(gap.back() < -0.095);
+  CHECK(column(series, "time").back() == Approx(0.183).epsilon(0.02));
+}
+
 TEST_CASE("in space a block is not pushed through another one by a long step", "[study]") {
   const Folder folder;
   const auto done = seam("run " + folder.file("scene.yaml", R"yaml(

@@ -132,6 +132,40 @@ TEST_CASE("a step whose error in time is too large leaves nothing behind") {
   CHECK(folder.read("first/series.csv") == folder.read("second/series.csv"));
 }
 
+TEST_CASE("steps that are refused again and again are not tried each time, also after a restart",
+          "[sanitized]") {
+  // A wheel that turns evenly: each step is as hard as the one before.
+  const std::string text = R"yaml(
+title: A wheel
+dimension: 3
+plugins: [solid]
+meshes: {b: {grid: {from: [0, 0, 0], to: [1, 1, 0.2], cells: [1, 1, 1]}}}
+fields: {b: {type: rigid_body, mesh: b, density: 1, initial: {rotation_rate: [0.3, 0, 1]}}}
+time: {theta: 0.5, end: 40, step: {initial: 0.8}}
+solver: {newton: {maximum_iterations: 2}}
+output: {fields: false, restart: {every: 1}, probes: {a: {field: b, quantity: rotation}}}
+)yaml";
+  const Folder folder;
+  const std::string file = folder.file("wheel.yaml", text);
+  REQUIRE(run(folder, file, "whole").code == 0);
+  const auto refused = [&](const std::string& where) {
+    return nlohmann::json::parse(folder.read(where + "/summary.json"))["rejected_steps"].get<int>();
+  };
+  CHECK(refused("whole") > 5);
+  CHECK(refused("whole") < 25);  // of 50 steps, each of which fails as it is planned
+  const std::vector<double> ends = times(folder, "whole");
+  for (int k = 0; k <= 50; ++k)
+    CHECK(std::ranges::any_of(ends, [&](double t) { return std::abs(t - 0.8 * k) < 1e-9; }));
+  for (const int steps : {9, 20, 100}) {
+    const std::string where = std::to_string(steps);
+    CAPTURE(steps);
+    REQUIRE(run(folder, file + " --stop-after " + where, where).code == 0);
+    REQUIRE(run(folder, file + " --resume", where).code == 0);
+    CHECK(folder.read(where + "/series.csv") == folder.read("whole/series.csv"));
+    CHECK(refused(where) == refused("whole"));
+  }
+}
+
 TEST_CASE("adaptive steps have the error that is asked for") {
   // dx/dt + x = exp(t), so that x = sinh(t) and its second derivative is x itself: half the step times the
   // change of the rate is h^2/2 of x. Steps aim at 0.9^2 of the tolerance.

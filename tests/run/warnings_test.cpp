@@ -45,6 +45,31 @@ time: {{static: true, end: 1, step: {{initial: 0.5}}}}
                      down, up);
 }
 
+/// Two rigid blocks, one of which falls on the other. @param low more of the lower one
+std::string falling(const std::string& low, const std::string& looks) {
+  return R"yaml(
+title: Two rigid blocks
+dimension: 2
+plugins: [solid, nitsche_fsci]
+meshes:
+  lower: {grid: {from: [0, 0], to: [1, 0.5], cells: [2, 1]}}
+  upper: {grid: {from: [0.2, 0.51], to: [0.8, 1], cells: [2, 1]}}
+fields:
+  low: {type: rigid_body, mesh: lower, density: 1, )yaml" +
+         low + R"yaml(}
+  high: {type: rigid_body, mesh: upper, density: 1, body_force: [0, -1]}
+  low_skin: {type: rigid_surface, mesh: lower}
+  high_skin: {type: rigid_surface, mesh: upper}
+constraints: [{type: rigid, field: low_skin, body: low}, {type: rigid, field: high_skin, body: high}]
+interfaces:
+  down: {type: contact, from: high_skin, to: low_skin}
+  up: {type: contact, from: low_skin, to: high_skin}
+coupling: [)yaml" +
+         looks + R"yaml(]
+time: {end: 0.1, step: {initial: 0.1}}
+)yaml";
+}
+
 std::string cavity(const std::string& boundary) {
   return R"yaml(
 title: A box of fluid
@@ -101,6 +126,41 @@ TEST_CASE("of a pair of surfaces that look at each other one stress counts, not 
     CHECK(run.done.code == 0);
     CHECK(run.series("top.y").back() == Approx(-run.series("bottom.y").back()).epsilon(1e-9));
   }
+}
+
+TEST_CASE("rigid bodies that look at each other push each other alike", "[sanitized]") {
+  const std::string down = "{type: contact, on: down, surface_stiffness: 100",
+                    up = ", {type: contact, on: up, surface_stiffness: ",
+                    held = "translation: [0, 0], rotation: [0]", free = "stiffness: [1, 1]";
+  const auto check = [](const std::string& low, const std::string& looks) {
+    const Folder folder;
+    return seam("check " + folder.file("scene.yaml", falling(low, looks)));
+  };
+  const Result differ = check(free, down + "}" + up + "1000}");
+  CHECK(differ.code == 2);
+  CHECK_THAT(differ.output, Catch::Contains("scene.yaml:17:57") &&
+                                Catch::Contains("a `surface_stiffness` of 100 Pa/m where") &&
+                                Catch::Contains("of 1000 Pa/m where that looks back") &&
+                                Catch::Contains("forces do not balance") &&
+                                Catch::Contains("expected the same in both"));
+  const auto is_silent = [&](const std::string& low, const std::string& looks) {
+    const Result result = check(low, looks);
+    CAPTURE(low, looks, result.output);
+    CHECK(result.code == 0);
+    CHECK_THAT(result.output, !Catch::Contains("nothing pushes"));
+  };
+  is_silent(free, down + "}" + up + "50 + 50}");
+  is_silent(free, down + ", acts_on: both}" + up + "1000, acts_on: both}");  // then forces balance
+
+  const Result lost = check(free, down + "}");
+  CHECK(lost.code == 0);
+  CHECK_THAT(lost.output, Catch::Contains("warning: 'high_skin' is pushed by contact with 'low_skin'") &&
+                              Catch::Contains("nothing pushes 'low_skin' back, which is free to move") &&
+                              Catch::Contains("add an interface on which 'low_skin' looks at 'high_skin'"));
+  // What is held, or moves as given, needs no push.
+  is_silent(held, down + "}");
+  is_silent("translation: [t, 0], rotation: [t]", down + "}");
+  is_silent(free, down + ", acts_on: both, share: 1}");
 }
 
 TEST_CASE("boundaries that meet with different values: the last one counts, and the run says so") {

@@ -139,7 +139,10 @@ TEST_CASE("a run goes on from all levels that its next step looks back to", "[ra
   }
   const std::filesystem::path file =
       std::filesystem::temp_directory_path() / ("levels_on_" + std::to_string(communicator.size()));
-  write_restart(file, *written, {0, 1, 4, {}, {}, 0}, "run");
+  RunState state;
+  state.step = 1;
+  state.step_number = 4;
+  write_restart(file, *written, state, "run");
   const auto read = problem_with(4);
   static_cast<void>(read_restart(file, *read));
   written->state().advance();

@@ -62,6 +62,31 @@ std::optional<FacetSearch::Hit> cross_facet(const Surface& surface, int facet, c
   return (surface.dimension == 2 ? cross_segment : cross_triangle)(surface, facet, x, n, cosine);
 }
 
+Vector nearest_on_segment(const Vector& x, const Vector& a, const Vector& b) {
+  const Vector along = b - a;
+  return a + std::clamp(dot(x - a, along) / dot(along, along), 0.0, 1.0) * along;
+}
+
+double square_distance(const Vector& a, const Vector& b) { return dot(a - b, a - b); }
+
+/// How far a point is from a facet, m.
+double distance(const Surface& surface, int facet, const Vector& x) {
+  const int dim = surface.dimension;
+  const Vector a = vertex(surface, facet, 0), b = vertex(surface, facet, 1);
+  double least = square_distance(x, nearest_on_segment(x, a, b));
+  if (dim == 3) {
+    const Vector c = vertex(surface, facet, 2), first = b - a, second = c - a, area = cross(first, second),
+                 way = x - a;
+    const double square = dot(area, area), height = dot(way, area);
+    const double share1 = dot(cross(way, second), area) / square,
+                 share2 = dot(cross(first, way), area) / square;
+    if (share1 >= 0 && share2 >= 0 && share1 + share2 <= 1) return std::abs(height) / std::sqrt(square);
+    least = std::min({least, square_distance(x, nearest_on_segment(x, b, c)),
+                      square_distance(x, nearest_on_segment(x, c, a))});
+  }
+  return std::sqrt(least);
+}
+
 Box box_along(const Vector& x, const Vector& direction, double from, double to) {
   const double margin = slack * (to - from);
   Vector low{}, high{};
@@ -151,7 +176,11 @@ bool FacetSearch::encloses(const double* x, const double* direction, double marg
   const auto counts = [&](const Entry& entry) { return !exclude || !exclude(entry.second); };
   const Box near(Corner(point[0] - margin, point[1] - margin, point[2] - margin),
                  Corner(point[0] + margin, point[1] + margin, point[2] + margin));
-  const auto around = bg::index::intersects(near) && bg::index::satisfies(counts);
+  // Boxes of facets say nothing of how near these are, but where they lie along an axis.
+  const auto is_near = [&](const Entry& entry) {
+    return counts(entry) && distance(surface_, entry.second, point) <= margin;
+  };
+  const auto around = bg::index::intersects(near) && bg::index::satisfies(is_near);
   if (tree_->index.qbegin(around) != tree_->index.qend()) return false;
   const Box all = tree_->index.bounds();
   const Corner &low = all.min_corner(), &high = all.max_corner();

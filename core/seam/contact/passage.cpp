@@ -173,7 +173,9 @@ void Passage::check(const OppositePoints& opposite, double least_gap) {
       if (!has_passed(start, end, opposite.normal(facet), overlaps, now)) continue;
       throw StepRefused(fmt::format(
           "the surface of '{}' has passed through {}: at ({:.6g}) it is {:.3g} m behind what it faced, more "
-          "than the interface's depth of {:.3g} m",
+          "than the interface's `depth` of {:.3g} m; where bodies overlap so far bit by bit, as `gap` tells, "
+          "a "
+          "greater `surface_stiffness` of rigid ones, or `penalty` of others, keeps them apart",
           own_->body().name(),
           other_ ? fmt::format("that of '{}'", other_->body().name()) : std::string("an obstacle"),
           fmt::join(end.begin(), end.begin() + own.dimension, ", "), -behind->gap, window_.depth));

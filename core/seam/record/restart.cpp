@@ -141,9 +141,13 @@ RunState read_header(const std::filesystem::path& file, const nlohmann::json& he
     state.step_number = header.at("step_number");
     state.iterations = header.at("iterations").get<std::vector<int>>();
     state.rejected_steps = header.at("rejected_steps");
+    if (const auto refusals = header.find("refusals"); refusals != header.end())
+      state.refusals = {refusals->at("length"), refusals->at("patience"), refusals->at("waiting")};
   } catch (const nlohmann::json::exception&) {
     throw damaged_file(file);
   }
+  const Refusals& r = state.refusals;
+  if (!(r.length >= 0) || r.patience < 0 || r.waiting < 0) throw damaged_file(file);
   if (!std::isfinite(state.time) || !std::isfinite(state.step) || !(state.step > 0) || state.step_number < 0)
     throw Error(
         fmt::format("the restart point '{}' holds the time {}, a step of {} s and the number {}: expected a "
@@ -180,6 +184,9 @@ void write_restart(const std::filesystem::path& file, const Problem& problem, co
   header["step_number"] = state.step_number;
   header["iterations"] = state.iterations;
   header["rejected_steps"] = state.rejected_steps;
+  header["refusals"] = {{"length", state.refusals.length},
+                        {"patience", state.refusals.patience},
+                        {"waiting", state.refusals.waiting}};
   header["run"] = run;
   // Series are no JSON: they may be infinite, as a gap is where nothing is opposite.
   header["times"] = state.results.time.size();

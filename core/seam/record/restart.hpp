@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "seam/record/refusals.hpp"
 #include "seam/record/results.hpp"
 #include "seam/solve/problem.hpp"
 
@@ -13,7 +14,8 @@ namespace seam {
 /// Where a run stands between two steps.
 struct RunState {
   double time = 0;
-  double step = 0;  ///< next step to try, s
+  double step = 0;    ///< next step to try, s
+  Refusals refusals;  ///< when the last step was taken
   long step_number = 0;
   Results results;              ///< recorded so far
   std::vector<int> iterations;  ///< of Newton's method in each step that was taken

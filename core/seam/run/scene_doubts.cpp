@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "seam/assembly/element.hpp"
+#include "seam/assembly/ties.hpp"
 #include "seam/cut/overlap.hpp"
 #include "seam/field/field.hpp"
 #include "seam/mesh/mesh.hpp"
@@ -27,7 +29,10 @@ class Doubts {
     look_at_times();
     for (const auto& [name, probe] : at_.scene.root.object("output").map("probes"))
       look_at_probe(name, probe);
-    for (const Parameters& coupling : at_.scene.root.list("coupling")) look_at_wall(coupling);
+    for (const Parameters& coupling : at_.scene.root.list("coupling")) {
+      look_at_wall(coupling);
+      look_for_reaction(coupling);
+    }
     for (const Parameters& constraint : at_.scene.root.list("constraints"))
       if (constraint.type() == "periodic") look_at_periodic(constraint);
     for (const auto& [name, field] : at_.scene.root.map("fields")) look_at_mass(name, field);
@@ -222,6 +227,72 @@ class Doubts {
                            "prescribes holds on both sides, and what it applies acts within the field; "
                            "leave one of them out",
                            on, field->first, constraint.where().text()));
+  }
+
+  /// Contact that pushes one body alone pushes two that look at each other, and one that nothing moves needs
+  /// no push.
+  void look_for_reaction(const Parameters& coupling) {
+    const bool is_one_sided =
+        coupling.has("acts_on") ? coupling.text("acts_on") == "own" : coupling.has("surface_stiffness");
+    const Interface* interface = coupling.has("on") ? interface_of(coupling) : nullptr;
+    if (!is_one_sided || interface == nullptr) return;
+    const std::vector<std::string> fields = interface->fields();
+    if (fields.size() < 2) return;  // beside an obstacle
+    const std::string &own = fields[fields.size() - 2], &other = fields.back();
+    for (const Parameters& back : at_.scene.root.list("coupling")) {
+      const Interface* looks = back.has("on") ? interface_of(back) : nullptr;
+      if (looks == nullptr || back.type() != coupling.type()) continue;
+      const std::vector<std::string> those = looks->fields();
+      if (those.size() > 1 && those[those.size() - 2] == other && those.back() == own) return;
+    }
+    if (!moves(other)) return;
+    warn(coupling.where("on"),
+         fmt::format("'{0}' is pushed by contact with '{1}', and nothing pushes '{1}' back, which is free to "
+                     "move: momentum is lost; add an interface on which '{1}' looks at '{0}', with a "
+                     "coupling of the same kind",
+                     own, other));
+  }
+
+  [[nodiscard]] const Interface* interface_of(const Parameters& coupling) const {
+    for (const auto& [name, interface] : at_.built.interfaces)
+      if (name == coupling.text("on")) return interface.get();
+    return nullptr;
+  }
+
+  /// Whether some unknown that moves a field is free, or tied to one that is. Collective.
+  [[nodiscard]] bool moves(const std::string& name) const {
+    Problem& problem = *at_.built.problem;
+    const auto& entries = problem.fields();
+    std::vector<const Block*> blocks;  // as ties count them
+    for (const FieldEntry& entry : entries)
+      for (const Block& block : entry.field->blocks()) blocks.push_back(&block);
+    const auto is_free = [&](const Block& block, int node, int component) {
+      return !block.given && !block.prescribed[static_cast<std::size_t>(node) * block.size + component];
+    };
+    std::set<std::pair<const Block*, std::size_t>> held;  // by what they are tied to
+    for (const Ties::Resolved& tie : problem.ties(time_point(at_.start, 0, 1))) {
+      const auto number = [&](const UnknownPlace& place) {
+        return static_cast<std::size_t>(blocks[place.block]->space->local_node(place.node));
+      };
+      const bool follows = std::ranges::any_of(tie.to, [&](const TiedTo& to) {
+        return !to.unknown.is_clock() &&
+               is_free(*blocks[to.unknown.block], static_cast<int>(number(to.unknown)), to.unknown.component);
+      });
+      const Block* block = blocks[tie.unknown.block];
+      if (!follows) held.emplace(block, number(tie.unknown) * block->size + tie.unknown.component);
+    }
+    bool any = false;
+    const auto entry = std::ranges::find(entries, name, &FieldEntry::name);
+    for (const Unknown& unknown : entry->field->unknowns()) {
+      if (unknown.role != UnknownRole::motion) continue;
+      const auto [number, offset, components] = entry->field->place(unknown.name);
+      const Block& block = entry->field->blocks()[number];
+      for (int node = 0; node < block.space->owned_nodes(); ++node)
+        for (int c = offset; c < offset + components; ++c)
+          any |= is_free(block, node, c) &&
+                 !held.contains({&block, static_cast<std::size_t>(node) * block.size + c});
+    }
+    return problem.communicator().any(any);
   }
 
   /// A wall that moves one way and says another velocity lets fluid through.

@@ -106,9 +106,9 @@ bool Session::iterate(double until) {
     keep_report(refused.what());
   } catch (const SingularMatrix& singular) {
     keep_report(singular.what());
-    // What has been held so far is lost on a state that iterations went astray to, as where a body snaps
-    // through.
-    if (state_.step_number == 0) throw;
+    // Where the run starts it is the scene that leaves something unheld. What has been held so far is lost on
+    // a state that iterations went astray to, as where a body snaps through.
+    if (state_.step_number == 0 && reports_.back().iterations() == 0) throw;
   }
   NewtonReport& report = reports_.back();
   if (report.converged && stepper_.too_inaccurate(step_->error(), until - state_.time)) {

@@ -57,8 +57,11 @@ class Session {
   [[nodiscard]] const TimePoint& at() const { return at_; }
   /// What has been recorded so far.
   [[nodiscard]] const Results& results() const { return state_.results; }
-  /// Plans the length of the step to try next, s.
-  void plan(double step) { state_.step = step; }
+  /// Plans the length of the step to try next, s. @param refusals on the way to the last good state
+  void plan(double step, const Refusals& refusals = {}) {
+    state_.step = step;
+    state_.refusals = refusals;
+  }
   /// Length of the last step that was taken, s; 0 when there is none.
   [[nodiscard]] double last_step() const;
   /// Of all steps tried in this process, those that were rewound among them.

@@ -98,10 +98,12 @@ const Results& Simulation::run(const RunOptions& options) {
   const RunState& state = session_.state();
   const long first = state.step_number;
   double step = state.step;
+  // A run that is resumed takes refused steps again: only where one was taken they become part of the state.
+  Refusals refusals = state.refusals;
   while (!session_.finished()) {
     if (options.stop_after && state.step_number - first >= *options.stop_after) break;
     if (!attend(options)) break;
-    step = advance(step);
+    step = advance(step, refusals);
   }
   if (session_.finished()) session_.finish_results();
   if (interruption_ || !session_.finished()) tell([&](Recorder& recorder) { recorder.keep(standing()); });
@@ -116,9 +118,9 @@ const Results& Simulation::run(const RunOptions& options) {
   return session_.results();
 }
 
-/// Tries a step. @param step its length, s, unless something comes first
+/// Tries a step. @param step its length, s, unless something comes first @param refusals so far
 /// @return the length to try next, s
-double Simulation::advance(double step) {
+double Simulation::advance(double step, Refusals& refusals) {
   const Stepper& stepper = session_.stepper();
   const double from = session_.state().time, until = stepper.target(from, step), length = until - from;
   const bool is_taken = needing_memory(
@@ -126,12 +128,14 @@ double Simulation::advance(double step) {
       {}, [&] { return session_.step(until); });
   const Attempt attempt{length, session_.reports().back()};
   if (is_taken) {
-    const double next =
-        stepper.after_success(until, step, length, session_.time_error(), attempt.report.iterations());
-    session_.plan(next);
+    const double next = refusals.accept(
+        step, length,
+        stepper.after_success(until, step, length, session_.time_error(), attempt.report.iterations()));
+    session_.plan(next, refusals);
     tell([&](Recorder& recorder) { recorder.take(standing(), attempt); });
     return next;
   }
+  refusals.refuse(length);
   tell([&](Recorder& recorder) { recorder.refuse(standing(), attempt); });
   const std::optional<double> shorter = stepper.after_failure(length);
   if (!shorter)

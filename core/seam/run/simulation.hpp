@@ -77,7 +77,7 @@ class Simulation {
   template <class Call>
   void tell(Call&& call);
   bool attend(const RunOptions& options);
-  [[nodiscard]] double advance(double step);
+  [[nodiscard]] double advance(double step, Refusals& refusals);
   void end();
   void finish_timings();
 

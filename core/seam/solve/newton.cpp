@@ -145,6 +145,7 @@ void Newton::begin(const TimePoint& step) {
   frozen_ = false;
   freezes_ = 0;
   freed_ = 0;
+  refused_.clear();
   far_ = std::numeric_limits<double>::infinity();
 }
 
@@ -152,6 +153,11 @@ NewtonReport Newton::solve(const TimePoint& step) {
   begin(step);
   while (iterate()) continue;
   return report_;
+}
+
+/// What bodies did that increments were shortened for: it tells more than numbers of the iteration.
+std::string Newton::refusal() const {
+  return refused_.empty() ? "" : "; what increments were shortened for, last: " + refused_;
 }
 
 bool Newton::fail(std::string reason) {
@@ -167,8 +173,8 @@ bool Newton::iterate() {
     problem_.assembler().assemble(at_, true);
     increment_.clear();
   } else if (!take(entry)) {
-    return fail(fmt::format("no part of the increment of iteration {} leads to an admissible state{}",
-                            iteration_, obstacle_));
+    return fail(fmt::format("no part of the increment of iteration {} leads to an admissible state{}{}",
+                            iteration_, not_finite_, refusal()));
   }
   // After a renumbering the increment's rows mean nothing any more.
   if (entry.space_changed) increment_.clear();
@@ -185,9 +191,9 @@ bool Newton::iterate() {
   if (iteration_ == options_.maximum_iterations)
     return fail(fmt::format(
         "not converged after {} iterations: relative residual {:.2e} of {} (tolerance {:.0e}), relative "
-        "increment {:.2e} (tolerance {:.0e})",
+        "increment {:.2e} (tolerance {:.0e}){}",
         iteration_, size_.residual, size_.worst, options_.tolerance, size_.increment,
-        options_.increment_tolerance));
+        options_.increment_tolerance, refusal()));
   if (iteration_ >= free_iterations) problem_.hold_spaces();
   if (!frozen_ && problem_.is_cut() && cycles()) {
     far_ = 0.01 * problem_.smallest_cut_cell();
@@ -236,7 +242,7 @@ bool Newton::take(NewtonIteration& entry) {
   constexpr double blow_up = 1e4;
   constexpr double least = 1e-3;
   const StateStore::Snapshot before = problem_.iterate(at_);
-  obstacle_.clear();
+  not_finite_.clear();
   for (entry.damping = 1; entry.damping > least; entry.damping /= 2) {
     if (follow(entry)) {
       problem_.assembler().assemble(at_, true);
@@ -245,7 +251,7 @@ bool Newton::take(NewtonIteration& entry) {
       const bool much_larger = !size_.at_rounding && size > blow_up * size_.residual && size > 1e-3;
       if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
       if (!std::isfinite(size) && (!options_.damping || entry.damping / 2 <= least))
-        obstacle_ = ": there" + problem_.assembler().describe_not_finite(at_);
+        not_finite_ = ": there" + problem_.assembler().describe_not_finite(at_);
     }
     if (!options_.damping) return false;
     problem_.state().restore(before);
@@ -269,7 +275,7 @@ bool Newton::follow(NewtonIteration& entry) {
     return true;
   } catch (const StepRefused& refused) {
     if (!options_.damping) throw;
-    obstacle_ = std::string(": ") + refused.what();
+    refused_ = refused.what();
     return false;
   }
 }

@@ -80,6 +80,7 @@ class Newton {
                              const std::vector<double>& rounding = {}) const;
   Size measure_with_rounding(const NewtonIteration& entry) const;
   bool fail(std::string reason);
+  [[nodiscard]] std::string refusal() const;
   [[nodiscard]] bool converged(const NewtonIteration& entry, const Size& last) const;
   bool finish();
   bool take(NewtonIteration& entry);
@@ -108,7 +109,8 @@ class Newton {
   std::vector<double> frozen_at_;  ///< motions() when the cut was frozen
   double far_ = 0;                 ///< how far it may, m
   long long held_ = -1;            ///< pattern for which it is known that nothing changes without resistance
-  std::string obstacle_;           ///< why the last state that was tried is not admissible
+  std::string not_finite_;         ///< what was not in the last state that was tried
+  std::string refused_;            ///< why a part of an increment of this step was, last; "" if none was
 };
 
 /// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.

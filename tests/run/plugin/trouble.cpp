@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Functions that take their time, or end a run in ways that scenes cannot: for the tests of what is left
-// then.
+// Functions that take their time, or end a run in ways that scenes cannot, and a linear solver that fails
+// when it is told to: for the tests of what is left then.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "seam/constraint/constraint.hpp"
+#include "seam/linear/linear_solver.hpp"
 #include "seam/plugin/plugin.hpp"
 #include "seam/run/interruption.hpp"
 #include "seam/scene/function.hpp"
@@ -94,6 +95,25 @@ class TroubleWithTies final : public seam::Constraint {
   std::string rank_;
 };
 
+/// Solves as another one does, but for one of its solves, which finds the matrix singular.
+class Failing final : public seam::LinearSolver {
+ public:
+  Failing(const Parameters& p, const seam::Registry& registry)
+      : inner_(registry.create<LinearSolver>("linear_solver", p.object("by"))), at_(p.integer("at")) {}
+  void forget() override { inner_->forget(); }
+
+ protected:
+  void solve_into(const seam::Matrix& a, const std::vector<seam::EquationBlock>& blocks,
+                  const std::vector<double>& b, std::vector<double>& x, seam::SolveReport& report) override {
+    if (++count_ == at_) throw seam::SingularMatrix("the matrix of this solve is singular", {});
+    report = inner_->solve(a, blocks, b, x);
+  }
+
+ private:
+  std::unique_ptr<LinearSolver> inner_;
+  long long at_, count_ = 0;
+};
+
 }  // namespace
 
 SEAM_PLUGIN(registry) {
@@ -121,4 +141,10 @@ SEAM_PLUGIN(registry) {
                                  [](const Parameters& p, const seam::Registry& /*registry*/) {
                                    return std::make_unique<TroubleWithTies>(p);
                                  });
+  seam::Schema failing("A solver that fails once.");
+  failing.integer("at", "the solve that fails, counted from 1");
+  failing.typed("by", "what solves the others", "linear_solver").otherwise("direct");
+  registry.add<seam::LinearSolver>(
+      "linear_solver", "failing", failing,
+      [](const Parameters& p, const seam::Registry& all) { return std::make_unique<Failing>(p, all); });
 }
