@@ -240,6 +240,32 @@ output:
   }
 }
 
+TEST_CASE("a hinge in space that sets off all at once counts its turns") {
+  const Run run(R"yaml(
+title: A block that stands, and is then turned by 10 rad a step
+dimension: 3
+plugins: [solid]
+meshes: {block: {grid: {from: [0.3, 0, 0], to: [2.3, 1, 1], cells: [2, 1, 1]}}}
+fields: {block: {type: rigid_body, mesh: block, density: 1}}
+constraints:
+  - {type: joint, kind: hinge, body: block, at: [0.4, 0.5, 0.5], axis: [0, 0, 1], motion: "t < 0.55 ? 0 : 100*(t - 0.5)"}
+time: {theta: 1, end: 0.8, step: {initial: 0.1}}
+output:
+  fields: false
+  probes: {r: {field: block, quantity: rotation}, c: {field: block, quantity: translation}}
+)yaml",
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const std::vector<double> time = run.series("time");
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const double angle = time[k] < 0.55 ? 0 : 100 * (time[k] - 0.5);
+    CAPTURE(time[k]);
+    CHECK(run.series("r.z")[k] == Approx(angle).margin(1e-9));
+    CHECK(run.series("c.x")[k] == Approx(0.9 * (std::cos(angle) - 1)).margin(1e-9));
+  }
+}
+
 TEST_CASE("bodies on joints start where given motions say") {
   // An arm along x is turned to an angle that no iteration by straight lines would find, and carries a second
   // one that is turned on.
