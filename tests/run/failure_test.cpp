@@ -127,7 +127,7 @@ TEST_CASE("a folder that vanishes during the run is told") {
       (folder.path / "log").string());
   process.wait_for([&] { return fs::exists(begun); });
   fs::remove_all(folder.path / "r");
-  std::ofstream{until};
+  std::ofstream made(until);
   CHECK(process.wait() == 1);
   CHECK_THAT(process.output(), Contains("somebody has deleted the file, or its folder"));
 }
@@ -261,7 +261,7 @@ TEST_CASE("series and events grow with each step") {
   process.wait_for([&] { return fs::exists(begun); });
   CHECK(lines("r/series.csv") == 10);  // names, the initial state, eight steps
   CHECK(lines("r/events.jsonl") == 8);
-  std::ofstream{until};
+  std::ofstream made(until);
   CHECK(process.wait() == 0);
   CHECK(lines("r/series.csv") == 12);
 }

@@ -133,7 +133,8 @@ std::vector<std::vector<const Part*>> tied_groups(Problem& problem, const std::v
   for (std::size_t k = 0; k < parts.size(); ++k) groups[sets.root(static_cast<int>(k))].push_back(&parts[k]);
   std::vector<std::vector<const Part*>> result;
   for (auto& [root, group] : groups)
-    if (std::ranges::any_of(group, [&](const Part* part) { return part->entry != group.front()->entry; }))
+    if (std::ranges::any_of(
+            group, [first = group.front()->entry](const Part* part) { return part->entry != first; }))
       result.push_back(std::move(group));
   return result;
 }
