@@ -3,6 +3,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "seam/assembly/assembler.hpp"
 #include "seam/conformance/tangent.hpp"
@@ -171,6 +172,18 @@ TEST_CASE("second rates of what is tied are those of the others, and what turnin
   };
   CHECK(number(block.now.rate) == Approx(1.5 * 3).epsilon(1e-14));
   CHECK(number(block.now.second_rate) == Approx(1.5 * -4 + 3 * 3).epsilon(1e-14));
+}
+
+TEST_CASE("a constraint that fails on one rank fails on all", "[ranks]") {
+  bool fails = false;
+  const auto problem = problem_with([&](Ties&, const Field& field) {
+    const Communicator& communicator = field.mesh().communicator();
+    if (fails && communicator.rank() == communicator.size() - 1)
+      throw std::runtime_error("the knot came undone");
+  });
+  fails = true;
+  // Without the others it would leave them waiting for its ties.
+  CHECK_THROWS_WITH(problem->ties(time_point(1, 0, 1)), Catch::Contains("the knot came undone"));
 }
 
 TEST_CASE("what is tied may change in every iteration", "[ranks]") {
