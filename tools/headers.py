@@ -24,7 +24,7 @@ GUIDE = CORE.parent / "docs/write-a-plugin.md"
 ENTRIES = """
     assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp interface/adjoint.hpp interface/cell_constant.hpp
     interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp mesh/quadrature.hpp physics/body_terms.hpp physics/hyperelastic.hpp
-    physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
+    physics/completes_start.hpp physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
     plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp
     scene/schema.hpp state/state_store.hpp term/fad.hpp term/given_functions.hpp term/kernel_term.hpp term/moving_mesh.hpp
     term/symmetric.hpp term/tensor.hpp

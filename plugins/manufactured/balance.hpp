@@ -23,6 +23,17 @@ inline Event<Twice> twice(const double* x, double t) {
   return {Twice(Once(x[0], 0), 0), Twice(Once(x[1], 1), 1), Twice(Once(t, 2), 2)};
 }
 
+/// First and second derivative by time of fields that are differentiated twice.
+template <int dim>
+void put_rates(const Fad<dim + 1, Fad<dim + 1>>& field, double* rate, double* second_rate) {
+  *rate = field.d[dim].v;
+  *second_rate = field.d[dim].d[dim];
+}
+template <int dim>
+void put_rates(const Vec<dim, Fad<dim + 1, Fad<dim + 1>>>& field, double* rate, double* second_rate) {
+  for (int i = 0; i < dim; ++i) put_rates<dim>(field[i], rate + i, second_rate + i);
+}
+
 /// Of a vector whose entries are differentiated by place and time.
 template <int dim, class T>
 Mat<dim, dim, T> space_gradient(const Vec<dim, Fad<dim + 1, T>>& field) {

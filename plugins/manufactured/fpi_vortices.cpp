@@ -136,6 +136,23 @@ class FpiVortices final : public Function {
     }
   }
 
+  void rates(int part, const double* x, double t, double* rate, double* second_rate) const override {
+    switch (part) {
+      case 0:
+        return put_rates<2>(velocity(twice(x, t)), rate, second_rate);
+      case 2:
+        return put_rates<2>(pressure(twice(x, t)), rate, second_rate);
+      case 7:
+        return put_rates<2>(displacement(twice(x, t)), rate, second_rate);
+      case 10:
+        return put_rates<2>(in_pores(moved(twice(x, t))), rate, second_rate);
+      case 12:
+        return put_rates<2>(pressure(moved(twice(x, t))), rate, second_rate);
+      default:
+        return Function::rates(part, x, t, rate, second_rate);
+    }
+  }
+
  private:
   template <class T>
   [[nodiscard]] Vec<2, T> velocity(const Event<T>& e) const {

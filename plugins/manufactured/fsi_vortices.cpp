@@ -78,6 +78,19 @@ class FsiVortices final : public Function {
     }
   }
 
+  void rates(int part, const double* x, double t, double* rate, double* second_rate) const override {
+    switch (part) {
+      case 0:
+        return put_rates<2>(fields_.velocity(fluid_amplitude_, twice(x, t)), rate, second_rate);
+      case 2:
+        return put_rates<2>(fields_.pressure(1, twice(x, t)), rate, second_rate);
+      case 5:
+        return put_rates<2>(fields_.displacement(body_amplitude_, twice(x, t)), rate, second_rate);
+      default:
+        return Function::rates(part, x, t, rate, second_rate);
+    }
+  }
+
  private:
   double fluid_amplitude_, body_amplitude_;
   Vortices fields_;

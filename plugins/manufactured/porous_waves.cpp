@@ -83,14 +83,9 @@ class PorousWaves final : public Function {
 
   void evaluate(int part, const double* x, double t, double* value) const override {
     const auto put = [&](const auto& result) { std::copy(result.c.begin(), result.c.end(), value); };
-    Event<double> here;
-    Event<First> once;
-    Event<Second> twice;
-    for (int i = 0; i <= dim; ++i) {
-      here[i] = i < dim ? x[i] : t;
-      once[i] = First(here[i], i);
-      twice[i] = Second(once[i], i);
-    }
+    const Event<double> here = event(x, t);
+    const Event<First> once = differentiated<First>(here);
+    const Event<Second> twice = differentiated<Second>(once);
     switch (part) {
       case 0:
         return put(displacement(here));
@@ -132,7 +127,34 @@ class PorousWaves final : public Function {
     }
   }
 
+  void rates(int part, const double* x, double t, double* rate, double* second_rate) const override {
+    const Event<Second> twice = differentiated<Second>(differentiated<First>(event(x, t)));
+    switch (part) {
+      case 0:
+        return put_rates<dim>(displacement(twice), rate, second_rate);
+      case 3:
+        return put_rates<dim>(velocity(twice), rate, second_rate);
+      case 5:
+        return put_rates<dim>(pressure(twice), rate, second_rate);
+      default:
+        return Function::rates(part, x, t, rate, second_rate);
+    }
+  }
+
  private:
+  [[nodiscard]] static Event<double> event(const double* x, double t) {
+    Event<double> here;
+    std::copy_n(x, dim, here.begin());
+    here[dim] = t;
+    return here;
+  }
+  template <class D, class T>
+  [[nodiscard]] static Event<D> differentiated(const Event<T>& at) {
+    Event<D> result;
+    for (int i = 0; i <= dim; ++i) result[i] = D(at[i], i);
+    return result;
+  }
+
   /// All that the balances speak of, at a material point.
   template <class T>
   struct State {

@@ -14,7 +14,6 @@
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/together.hpp"
 #include "seam/base/diagnostics.hpp"
-#include "seam/base/rates.hpp"
 #include "seam/constraint/constraint.hpp"
 #include "seam/scene/expression.hpp"
 
@@ -161,6 +160,15 @@ class Joint final : public Constraint {
                             time, motion_->text()));
   }
 
+  /// First and second rate. @throws Error where there is no first one; what has no second one begins anew.
+  [[nodiscard]] std::array<double, 2> given_rates(double time) const {
+    const auto [rate, second_rate] = motion_->rates(at_->c.data(), dimension_, time);
+    if (std::isfinite(rate)) return {rate, std::isfinite(second_rate) ? second_rate : 0};
+    throw Error(motion_where_, fmt::format("the `motion` of the joint that holds '{}' has no rate at t = "
+                                           "{:.6g}, `{}`: expected one that sets off with some velocity",
+                                           body_name_, time, motion_->text()));
+  }
+
   /// @throws Error where another joint holds the body
   void refuse_second(Field& body) const {
     constexpr const char* line = "line of its joint";
@@ -236,10 +244,9 @@ class Joint final : public Constraint {
   }
 
   void set_motion(Present& present, const TimePoint& at) const {
-    const auto motion = [&](double t) { return (*motion_)(at_->c.data(), dimension_, t); };
-    const std::array<double, 2> rates = rates_of(motion, at.time);
     present.given = Number(given_motion(at.time));
-    present.given_before = present.in_step ? motion(at.time - at.step) : 0;
+    const std::array<double, 2> rates = given_rates(at.time);
+    present.given_before = present.in_step ? (*motion_)(at_->c.data(), dimension_, at.time - at.step) : 0;
     present.given.d[the_clock] = rates[0];
     present.given_rate = Number(rates[0]);
     present.given_rate.d[the_clock] = rates[1];

@@ -173,25 +173,17 @@ struct RigidKineticEnergy {
 class SpaceStart final : public Function {
  public:
   /// @param angles given about the body's axes, 0 where they are free
-  /// @param momentum angular, kg m^2/s, in these axes
-  SpaceStart(std::vector<Expression> angles, const Vec<3, double>& momentum)
-      : angles_(std::move(angles)), momentum_(momentum) {}
-  enum Part { orientation, angular_momentum };
+  explicit SpaceStart(std::vector<Expression> angles) : angles_(std::move(angles)) {}
   [[nodiscard]] const std::vector<Member>& members() const override { return members_; }
-  void evaluate(int part, const double* x, double t, double* value) const override {
+  void evaluate(int, const double* x, double t, double* value) const override {
     Vec<3, double> turn;
     for (int k = 0; k < 3; ++k) turn[k] = angles_[k](x, 3, t);
-    const Quaternion<double> turned_by = turned(no_rotation, turn);
-    if (part == orientation)
-      std::ranges::copy(turned_by.c, value);
-    else
-      std::ranges::copy((rotation_tensor(turned_by) * momentum_).c, value);
+    std::ranges::copy(turned(no_rotation, turn).c, value);
   }
 
  private:
-  std::vector<Member> members_{{"orientation", 4}, {"angular_momentum", 3}};
+  std::vector<Member> members_{{"orientation", 4}};
   std::vector<Expression> angles_;
-  Vec<3, double> momentum_;
 };
 
 /// Of the centre, m/s.
@@ -390,7 +382,6 @@ void RigidBody::build(FieldSetup& setup) const {
                           {"translation"});
     }
   }
-  Vec<3, double> spin;
   if (parameters_.has("initial")) {
     const Parameters& initial = parameters_.object("initial");
     if (initial.has("rotation_rate"))
@@ -400,13 +391,11 @@ void RigidBody::build(FieldSetup& setup) const {
       if (initial.has(key))
         for (std::size_t d = 0; d < initial.vector(key).size(); ++d)
           setup.set_initial_rate(unknown, static_cast<int>(d), Expression(initial.vector(key)[d]));
-    if (dim == 3 && initial.has("rotation_rate"))
-      std::copy_n(initial.vector("rotation_rate").begin(), 3, spin.c.begin());
   }
-  if (dim == 3) start_in_space(setup, inertia * spin);
+  if (dim == 3) start_in_space(setup);
 }
 
-void RigidBody::start_in_space(FieldSetup& setup, const Vec<3, double>& momentum) const {
+void RigidBody::start_in_space(FieldSetup& setup) const {
   std::vector<Expression> angles(3);
   for (int d = 0; d < 3; ++d) {
     if (!parameters_.has("rotation") || !parameters_.component_given("rotation", d)) continue;
@@ -414,14 +403,10 @@ void RigidBody::start_in_space(FieldSetup& setup, const Vec<3, double>& momentum
     // The orientation is counted from there on, where a static problem does not impose it at the start, too.
     setup.set_initial("rotation", d, angles[d]);
   }
-  const auto start = std::make_shared<SpaceStart>(std::move(angles), momentum);
-  const auto set = [&](const std::string& unknown, SpaceStart::Part part) {
-    const std::vector<Expression> values = Expression::components(start, part);
-    for (std::size_t d = 0; d < values.size(); ++d)
-      setup.set_initial(unknown, static_cast<int>(d), values[d]);
-  };
-  set("orientation", SpaceStart::orientation);
-  if (parameters_.number("density") > 0) set("angular_momentum", SpaceStart::angular_momentum);
+  const std::vector<Expression> orientation =
+      Expression::components(std::make_shared<SpaceStart>(std::move(angles)), 0);
+  for (std::size_t k = 0; k < orientation.size(); ++k)
+    setup.set_initial("orientation", static_cast<int>(k), orientation[k]);
 }
 
 void RigidBody::complete_start(Field& field) const {

@@ -31,7 +31,7 @@ class RigidBody final : public Physics, public CompletesStart {
   [[nodiscard]] int time_order() const;
   void prescribe(FieldSetup& setup, const std::string& unknown) const;
   /// @param momentum angular, in the body's axes, kg m^2/s
-  void start_in_space(FieldSetup& setup, const Vec<3, double>& momentum) const;
+  void start_in_space(FieldSetup& setup) const;
   Parameters parameters_;
   mutable Mat<3, 3, double> inertia_;  ///< about the centre, kg m^2; known once it is built
 };

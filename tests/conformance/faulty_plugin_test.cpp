@@ -146,6 +146,18 @@ TEST_CASE("the kit finds relations between unknowns that are told wrongly, or re
   CHECK_THAT(with_constraint("throws").output, Contains("no such row") && Contains("plugin 'faulty'"));
 }
 
+TEST_CASE("the kit finds a function whose rates are not those of its values") {
+  const std::string check = "given values: rates are those of the values";
+  const Result right = run_kit("warms", "1"), rate = run_kit("rate", "1"),
+               second = run_kit("second rate", "1");
+  INFO(right.output << rate.output << second.output);
+  CHECK_THAT(right.output, Contains("ok    " + check));
+  CHECK_THAT(rate.output,
+             Contains("FAIL  " + check) && Contains("derivative 1 by time of `heat[0]`, given for "
+                                                    "'temperature' of field 'plate'"));
+  CHECK_THAT(second.output, Contains("FAIL  " + check) && Contains("derivative 2"));
+}
+
 TEST_CASE("the kit differentiates at rest, and says of terms that they were not exercised") {
   const Result rest = run_kit("slope at rest", "1");
   INFO(rest.output);

@@ -27,6 +27,13 @@ class Tide final : public Function {
     else
       value[0] = x[0], value[1] = x[1] + t;
   }
+  void rates(int part, const double* x, double t, double* rate, double* second_rate) const override {
+    if (part == 1) return Function::rates(part, x, t, rate, second_rate);
+    ++evaluations_of_rates;
+    rate[0] = speed_;
+    second_rate[0] = 7;  // not what values say: so it is seen who is asked
+  }
+  static inline int evaluations_of_rates = 0;
   static inline int evaluations = 0;
 
  private:
@@ -75,6 +82,26 @@ TEST_CASE("expressions use the parts of functions by name") {
   const auto& level =
       mixed.root.map("fields")[0].second.list("boundary")[0].vector_expression("displacement");
   CHECK(level[1](here, 2, 7) == 42);
+}
+
+TEST_CASE("rates of a function are those that it gives, or found from its values") {
+  const Scene scene = parse("[sea.level, sea.level]", tide), other = parse("sea.flow", tide);
+  const auto displacement = [](const Scene& of) {
+    return of.root.map("fields")[0].second.list("boundary")[0].vector_expression("displacement");
+  };
+  const auto level = displacement(scene), flow = displacement(other);
+  const double here[2] = {0.25, 0.5}, there[2] = {1, 2};
+  Tide::evaluations_of_rates = 0;
+  CHECK(level[0].rates(here, 2, 10) == std::array<double, 2>{6, 7});
+  CHECK(level[0].rates(here, 2, 10) == std::array<double, 2>{6, 7});
+  CHECK(Tide::evaluations_of_rates == 1);
+  CHECK(level[0].rates(there, 2, 10)[1] == 7);
+  CHECK(level[0].rates(there, 2, 11)[1] == 7);
+  CHECK(Tide::evaluations_of_rates == 3);
+  CHECK(flow[0].rates(here, 2, 10)[0] == Approx(0).margin(1e-10));
+  CHECK(flow[1].rates(here, 2, 10)[0] == Approx(1).epsilon(1e-10));
+  CHECK(flow[1].rates(here, 2, 10)[1] == Approx(0).margin(1e-7));
+  CHECK(flow[1](here, 2, 10) == 10.5);
 }
 
 TEST_CASE("what is wrong with a function is said once, with the nearest name") {

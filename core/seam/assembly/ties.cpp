@@ -24,7 +24,8 @@ void update_ghosts(Block& block) {
   halo.update(block.active, 1);
   halo.update(block.known, 1);
   halo.update(block.prescribed, block.size);
-  halo.update(block.prescribed_value, block.size);
+  for (auto* level : {&block.prescribed_value, &block.prescribed_rate, &block.prescribed_second_rate})
+    halo.update(*level, block.size);
   for (NodalState* state : {&block.now, &block.old}) {
     for (auto* level : {&state->value, &state->rate, &state->second_rate}) halo.update(*level, block.size);
     for (auto* level : {state->mean_rate, state->mean_second_rate})

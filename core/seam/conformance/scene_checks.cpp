@@ -10,6 +10,7 @@
 #include "seam/assembly/assembler.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/conformance/constraints.hpp"
+#include "seam/conformance/given_values.hpp"
 #include "seam/conformance/tangent.hpp"
 #include "seam/field/field.hpp"
 #include "seam/record/evaluate.hpp"
@@ -223,6 +224,9 @@ std::vector<ConformanceCheck> check_scene(const Scene& scene, const Registry& re
     begin("ties of unknowns");
     const auto ties = check_constraints(half.problem(), at);
     checks.insert(checks.end(), ties.begin(), ties.end());
+    begin("rates of given values");
+    const auto given = check_given_values(half.problem(), at.time);
+    checks.insert(checks.end(), given.begin(), given.end());
     begin("tangents");
     const auto tangents = check_tangents(half.problem(), at);
     checks.insert(checks.end(), tangents.begin(), tangents.end());

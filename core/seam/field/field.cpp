@@ -92,7 +92,8 @@ void Field::resize(Block& block) const {
   const std::size_t n = static_cast<std::size_t>(block.space->nodes()) * block.size;
   block.active.resize(block.space->nodes(), block.given ? 0 : 1);
   block.prescribed.resize(n, 0);
-  block.prescribed_value.resize(n, 0.0);
+  for (auto* level : {&block.prescribed_value, &block.prescribed_rate, &block.prescribed_second_rate})
+    level->resize(n, 0.0);
 }
 
 void Field::keep_momentum() {

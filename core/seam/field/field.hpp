@@ -46,7 +46,9 @@ struct Block {
                                          ///< when a moving body leaves or enters its cells
   std::vector<char> active;              ///< per local node: carries unknowns of the system
   std::vector<char> prescribed;          ///< per unknown of a local node: its value is given,
-  std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step
+  std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step,
+  /// with these rates; where they are no numbers, those of the time scheme.
+  std::vector<double> prescribed_rate, prescribed_second_rate;
   std::vector<int> time_order;           ///< per component
   /// Per unknown of a local node: a number that tells what hands momentum on to it; null where nothing does.
   std::vector<double>* momentum_of = nullptr;

@@ -11,8 +11,11 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 
 #include "seam/base/diagnostics.hpp"
+#include "seam/base/rates.hpp"
+#include "seam/scene/formula_rates.hpp"
 #include "seam/scene/function.hpp"
 
 namespace seam {
@@ -20,6 +23,7 @@ namespace seam {
 struct Expression::Compiled {
   virtual ~Compiled() = default;
   virtual double evaluate(const double* x, int dim, double t) = 0;
+  virtual std::array<double, 2> rates(const double* x, int dim, double t) = 0;
 };
 
 struct Expression::Formula final : Expression::Compiled {
@@ -30,26 +34,52 @@ struct Expression::Formula final : Expression::Compiled {
     variables[3] = t;
     return parser.Eval();
   }
+  std::array<double, 2> rates(const double* x, int dim, double t) override {
+    std::array<Jet, 4> jets{};
+    for (int i = 0; i < dim; ++i) jets[static_cast<std::size_t>(i)].value = x[i];
+    jets[3] = {t, 1, 0};
+    if (const std::optional<Jet> jet = evaluate_jet(parser, jets, variables.data()))
+      return {jet->rate, jet->second_rate};
+    return rates_of([&](double time) { return evaluate(x, dim, time); }, t);
+  }
 };
 
 namespace {
 
-/// A part of a function with its values where it was evaluated last.
+/// Where something was evaluated last.
+class LastPlace {
+ public:
+  /// Whether it is elsewhere now: from now on it is here.
+  bool moves_to(const double* x, int dim, double t) {
+    std::array<double, 4> here{0, 0, 0, t};
+    std::copy_n(x, dim, here.begin());
+    if (at_ == here) return false;
+    at_ = here;
+    return true;
+  }
+
+ private:
+  std::optional<std::array<double, 4>> at_;
+};
+
+/// A part of a function with its values and rates where these were evaluated last.
 struct LastValues {
   std::shared_ptr<const Function> function;
   int part;
   std::vector<double> value;
-  std::array<double, 4> at{};
-  bool known = false;
+  std::vector<std::array<double, 2>> both_rates = std::vector<std::array<double, 2>>(value.size());
+  LastPlace of_values{}, of_rates{};
 
   const std::vector<double>& evaluate(const double* x, int dim, double t) {
-    std::array<double, 4> here{0, 0, 0, t};
-    std::copy_n(x, dim, here.begin());
-    if (known && here == at) return value;
-    function->evaluate(part, x, t, value.data());
-    at = here;
-    known = true;
+    if (of_values.moves_to(x, dim, t)) function->evaluate(part, x, t, value.data());
     return value;
+  }
+  const std::vector<std::array<double, 2>>& rates(const double* x, int dim, double t) {
+    if (!of_rates.moves_to(x, dim, t)) return both_rates;
+    std::vector<double> first(value.size()), second(value.size());
+    function->rates(part, x, t, first.data(), second.data());
+    for (std::size_t c = 0; c < value.size(); ++c) both_rates[c] = {first[c], second[c]};
+    return both_rates;
   }
 };
 
@@ -60,6 +90,9 @@ struct Expression::Component final : Expression::Compiled {
   std::size_t component = 0;
   double evaluate(const double* x, int dim, double t) override {
     return values->evaluate(x, dim, t)[component];
+  }
+  std::array<double, 2> rates(const double* x, int dim, double t) override {
+    return values->rates(x, dim, t)[component];
   }
 };
 
@@ -216,6 +249,10 @@ Expression::Expression(const std::string& text, const std::map<std::string, doub
 
 double Expression::operator()(const double* x, int dim, double t) const {
   return compiled_ ? compiled_->evaluate(x, dim, t) : value_;
+}
+
+std::array<double, 2> Expression::rates(const double* x, int dim, double t) const {
+  return compiled_ ? compiled_->rates(x, dim, t) : std::array<double, 2>{};
 }
 
 std::vector<Expression> Expression::components(const std::shared_ptr<const Function>& function, int part) {

@@ -27,6 +27,9 @@ class Expression {
 
   /// @param x position, `dim` entries (missing ones count as 0)
   double operator()(const double* x, int dim, double t) const;
+  /// First and second derivative by time at a fixed place: those of the formula, or those that its Function
+  /// gives. At a kink those of the past; no finite number where there is none.
+  [[nodiscard]] std::array<double, 2> rates(const double* x, int dim, double t) const;
   /// True when the value depends on neither position nor time.
   [[nodiscard]] bool is_constant() const { return !compiled_; }
   /// True when the value is the constant 0: terms may leave it out.

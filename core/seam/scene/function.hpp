@@ -21,6 +21,12 @@ class Function {
   /// @param x position, [dimension of the scene]
   /// @param value [components]
   virtual void evaluate(int part, const double* x, double t, double* value) const = 0;
+  /// First and second derivative by time at a fixed place, at a kink those of the past; no finite number
+  /// where there is none. What is prescribed moves by them. Unless a function knows better they come from its
+  /// values at some 300 times before, to about 1e-11 and 1e-8 of their size over the time in which it
+  /// changes.
+  /// @param rate, second_rate [components]
+  virtual void rates(int part, const double* x, double t, double* rate, double* second_rate) const;
 };
 
 }  // namespace seam

@@ -85,6 +85,7 @@ void hold(const LevelGroup::Member& member, int global) {
   member.level->nodes.push_back(node);
   block.prescribed[member.unknown_of(node)] = 1;
   block.prescribed_value[member.unknown_of(node)] = member.level->value;
+  block.prescribed_rate[member.unknown_of(node)] = block.prescribed_second_rate[member.unknown_of(node)] = 0;
 }
 
 void place_levels(LevelGroup& group) {

@@ -58,16 +58,48 @@ std::shared_ptr<const Mesh> point_mesh(const Mesh& shape, const FieldBuilder& bu
   return std::make_shared<Mesh>(shape.name(), data, shape.communicator());
 }
 
+/// What is prescribed of a level of a block, and what then has to be its rate; not finite where nothing is
+/// known of it.
+struct PrescribedLevel {
+  const std::vector<double>&value, &rate;
+};
+
 /// Rates of a level of the unknowns that have one of this order.
 /// @param mean of the step, null where it is not kept
 void update_rate(const TimePoint& at, const Block& block, int order, const std::vector<double>& now,
                  const std::vector<double>& old, const std::vector<double>& carried,
-                 std::vector<double>& rate, std::vector<double>* mean) {
+                 const PrescribedLevel& prescribed, std::vector<double>& rate, std::vector<double>* mean) {
   const double keep = (1 - at.theta) / at.theta;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (block.time_order[i % block.size] < order) continue;
     rate[i] = at.rate_factor * (now[i] - old[i]) - keep * carried[i];
+    // Changing with the value as the scheme's does, it is the prescribed one where the value is: so a linear
+    // problem remains one that takes one iteration.
+    if (block.prescribed[i] != 0 && std::isfinite(prescribed.value[i]) && std::isfinite(prescribed.rate[i]))
+      rate[i] = prescribed.rate[i] + at.rate_factor * (now[i] - prescribed.value[i]);
     if (mean != nullptr) (*mean)[i] = (now[i] - old[i]) / at.step;
+  }
+}
+
+/// Says where an unknown has to be at a time, and how it moves there.
+void prescribe(Block& block, int node, int component, double value, const std::array<double, 2>& rates) {
+  const std::size_t i = static_cast<std::size_t>(node) * block.size + component;
+  block.prescribed_value[i] = value;
+  block.prescribed_rate[i] = rates[0];
+  block.prescribed_second_rate[i] = rates[1];
+}
+
+/// Prescribed unknowns are where they have to be, and move so.
+void start_as_prescribed(Block& block) {
+  const auto start = [](double& level, double prescribed) {
+    if (std::isfinite(prescribed)) level = prescribed;
+  };
+  for (std::size_t i = 0; i < block.prescribed.size(); ++i) {
+    if (block.prescribed[i] == 0) continue;
+    block.now.value[i] = block.prescribed_value[i];
+    const int order = block.time_order[i % block.size];
+    if (order >= 1) start(block.now.rate[i], block.prescribed_rate[i]);
+    if (order >= 2) start(block.now.second_rate[i], block.prescribed_second_rate[i]);
   }
 }
 
@@ -109,12 +141,14 @@ std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
   return unknowns;
 }
 
-/// @throws Error where a body is to start with a rate that what it is tied to does not leave it
+/// @throws Error where a body is to start with a rate that what it is tied to, or its given motion, does not
+/// leave it
 /// @pre it is one point, which this rank owns
 void require_kept_rates(const FieldEntry& entry, double time) {
   struct Rate {
     std::string unknown;
     double given, left;
+    bool prescribed;
   };
   std::vector<Rate> rates;
   double largest = 0;
@@ -126,19 +160,25 @@ void require_kept_rates(const FieldEntry& entry, double time) {
           initial.component >= offset + components)
         continue;
       const double given = initial.value(block.space->position(0), entry.mesh->dimension(), time);
-      rates.push_back({unknown.name, given, block.now.rate[initial.component]});
+      rates.push_back(
+          {unknown.name, given, block.now.rate[initial.component], block.prescribed[initial.component] != 0});
       largest = std::max({largest, std::abs(given), std::abs(rates.back().left)});
     }
   }
   constexpr double rounding = 1e-9;
   for (const Rate& rate : rates)
     if (rate.given != 0 && std::abs(rate.given - rate.left) > rounding * largest)  // 0: as it may
-      throw Error(
-          entry.where,
-          fmt::format("field '{}' is to start with {:.6g} as a rate of its '{}' (`initial`), and the "
-                      "constraint that ties it leaves {:.6g}; give all of a motion that the constraint "
-                      "lets it make, or only what it is free to do",
-                      entry.name, rate.given, rate.unknown, rate.left));
+      throw Error(entry.where,
+                  fmt::format("field '{}' is to start with {:.6g} as a rate of its '{}' (`initial`), and {}",
+                              entry.name, rate.given, rate.unknown,
+                              rate.prescribed
+                                  ? fmt::format("the motion given for it sets off with {:.6g}; leave the "
+                                                "initial one out",
+                                                rate.left)
+                                  : fmt::format("the constraint that ties it leaves {:.6g}; give all of a "
+                                                "motion that the constraint lets it make, or only what it "
+                                                "is free to do",
+                                                rate.left)));
 }
 
 /// What a constraint may ask of a problem.
@@ -378,36 +418,32 @@ void Problem::initialise(double time, bool impose_prescribed) {
   set_prescribed(time);
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
-      for (std::size_t i = 0; i < block.prescribed.size(); ++i)
-        if (block.prescribed[i] && impose_prescribed) block.now.value[i] = block.prescribed_value[i];
+      if (impose_prescribed) start_as_prescribed(block);
       // The initial values are those at the node itself, which lies in the wet part of its set 0.
       for (int n = 0; n < block.space->nodes(); ++n) block.known[n] = block.space->set_of(n) == 0 ? 1 : 0;
       entry.field->set_layout(nullptr);
     }
-  if (!constraints_.empty() && impose_prescribed) {
-    state_.advance();  // a constraint may look at the start of the step
+  if (impose_prescribed) settle_start(time);
+  state_.advance();
+}
+
+/// Lets what follows from initial and prescribed values be so.
+void Problem::settle_start(double time) {
+  state_.advance();  // a constraint may look at the start of the step
+  if (!constraints_.empty()) {
     if (update_ties(time_point(time, 0, 1))) assembler_->rebuild();
     assembler_->settle();
     follow_relations(std::vector<double>(assembler_->ways_of_ties().size(), 0.0), time_point(time, 0, 1));
     assembler_->settle_rates();
-    // Rates of what is given in time are not known here.
-    const auto is_given = [](const FieldEntry& entry) {
-      return !entry.physics->displacement().empty() &&
-             std::ranges::any_of(entry.conditions, [](const PrescribedCondition& condition) {
-               return !condition.value.is_constant();
-             });
-    };
-    if (std::ranges::none_of(fields_, is_given))
-      together(communicator_, [&] {
-        for (const FieldEntry& entry : fields_)
-          if (entry.physics->support() == Support::point && entry.field->blocks()[0].space->owned_nodes() > 0)
-            require_kept_rates(entry, time);
-      });
-    for (const FieldEntry& entry : fields_)
-      if (const auto* completes = dynamic_cast<const CompletesStart*>(entry.physics.get()))
-        completes->complete_start(*entry.field);
   }
-  state_.advance();
+  together(communicator_, [&] {
+    for (const FieldEntry& entry : fields_)
+      if (entry.physics->support() == Support::point && entry.field->blocks()[0].space->owned_nodes() > 0)
+        require_kept_rates(entry, time);
+  });
+  for (const FieldEntry& entry : fields_)
+    if (const auto* completes = dynamic_cast<const CompletesStart*>(entry.physics.get()))
+      completes->complete_start(*entry.field);
 }
 
 void Problem::add_initial_rates(const std::vector<double>& increment) {
@@ -431,9 +467,16 @@ void Problem::add_initial_rates(const std::vector<double>& increment) {
 void Problem::set_given(FieldEntry& entry, double time) {
   for (const FieldEntry::Given& given : entry.given) {
     Block& block = entry.field->blocks()[given.block];
-    for (int node = 0; node < block.space->nodes(); ++node)
-      block.now.value[static_cast<std::size_t>(node) * block.size + given.component] =
-          given.value(block.space->position(node), entry.mesh->dimension(), time);
+    const int dim = entry.mesh->dimension();
+    for (int node = 0; node < block.space->nodes(); ++node) {
+      const double* x = block.space->position(node);
+      const std::size_t i = static_cast<std::size_t>(node) * block.size + given.component;
+      block.prescribed[i] = 1;
+      block.now.value[i] = given.value(x, dim, time);
+      prescribe(
+          block, node, given.component, block.now.value[i],
+          block.time_order[given.component] > 0 ? given.value.rates(x, dim, time) : std::array<double, 2>{});
+    }
   }
 }
 
@@ -442,18 +485,24 @@ void Problem::set_prescribed(double time) {
     together(communicator_, [&] {
       for (const PrescribedCondition& condition : entry.conditions) {
         Block& block = entry.field->blocks()[condition.block];
-        for (const int node : condition.nodes)
-          block.prescribed_value[static_cast<std::size_t>(node) * block.size + condition.component] =
-              prescribed_value(entry, condition, block.space->position(node), time);
+        const bool moves = block.time_order[condition.component] > 0;
+        for (const int node : condition.nodes) {
+          const double* x = block.space->position(node);
+          prescribe(
+              block, node, condition.component, prescribed_value(entry, condition, x, time),
+              moves ? condition.value.rates(x, entry.mesh->dimension(), time) : std::array<double, 2>{});
+        }
       }
     });
     set_given(entry, time);
     for (const LevelCondition& level : entry.levels)
       for (const int node : level.nodes) {
         Block& block = entry.field->blocks()[level.block];
-        block.prescribed_value[static_cast<std::size_t>(node) * block.size + level.component] = level.value;
+        prescribe(block, node, level.component, level.value, {});
       }
-    for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed_value, block.size);
+    for (Block& block : entry.field->blocks())
+      for (auto* level : {&block.prescribed_value, &block.prescribed_rate, &block.prescribed_second_rate})
+        block.space->halo().update(*level, block.size);
   }
 }
 
@@ -487,8 +536,8 @@ void Problem::update_rates(const TimePoint& at, bool relations) {
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
       const auto& carried = block.old.mean_rate == nullptr ? block.old.rate : *block.old.mean_rate;
-      update_rate(at, block, 1, block.now.value, block.old.value, carried, block.now.rate,
-                  block.now.mean_rate);
+      update_rate(at, block, 1, block.now.value, block.old.value, carried,
+                  {block.prescribed_value, block.prescribed_rate}, block.now.rate, block.now.mean_rate);
     }
   update_second_rates(at, relations);
 }
@@ -501,7 +550,9 @@ void Problem::update_second_rates(const TimePoint& at, bool relations) {
     for (Block& block : entry.field->blocks()) {
       NodalState &now = block.now, &old = block.old;
       const auto& carried = old.mean_second_rate == nullptr ? old.second_rate : *old.mean_second_rate;
-      update_rate(at, block, 2, now.rate, old.rate, carried, now.second_rate, now.mean_second_rate);
+      update_rate(at, block, 2, now.rate, old.rate, carried,
+                  {block.prescribed_rate, block.prescribed_second_rate}, now.second_rate,
+                  now.mean_second_rate);
     }
 }
 

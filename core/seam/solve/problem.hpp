@@ -229,6 +229,7 @@ class Problem {
 
  private:
   void set_prescribed(double time);
+  void settle_start(double time);
   static void set_given(FieldEntry& entry, double time);
   SpaceChange update_cuts(const TimePoint& at);
   void add_swept_volumes();

@@ -3,12 +3,14 @@
 // conformance kit say of it.
 #include <cmath>
 #include <csignal>
+#include <memory>
 #include <stdexcept>
 
 #include "seam/constraint/constraint.hpp"
 #include "seam/field/field.hpp"
 #include "seam/physics/physics.hpp"
 #include "seam/plugin/plugin.hpp"
+#include "seam/scene/function.hpp"
 #include "seam/term/kernel_term.hpp"
 
 namespace {
@@ -74,6 +76,25 @@ struct Numbers {
   }
 };
 
+/// t^2 + t, with rates that may be those of 2 t^2 + t, or those of the half of it.
+class Warming final : public Function {
+ public:
+  explicit Warming(const std::string& how)
+      : first_(how == "rate" ? 2 : 1), second_(how == "second rate" ? 1 : 2) {}
+  [[nodiscard]] const std::vector<Member>& members() const override {
+    static const std::vector<Member> parts{{"heat", 1}};
+    return parts;
+  }
+  void evaluate(int, const double*, double t, double* value) const override { *value = t * t + t; }
+  void rates(int, const double*, double t, double* rate, double* second_rate) const override {
+    *rate = first_ * 2 * t + 1;
+    *second_rate = second_;
+  }
+
+ private:
+  double first_, second_;
+};
+
 class Faulty final : public Physics {
  public:
   explicit Faulty(const Parameters& p) : how_(p.text("how")), where_(p.where()) {
@@ -110,7 +131,9 @@ class Faulty final : public Physics {
     if (how_ == "starts") setup.set_initial("temperature", 1, zero);
     if (how_ == "starts rate") setup.set_initial_rate("temperature", 1, zero);
     if (how_ == "gives") setup.give("temperature", 1, zero);
-    setup.prescribe("x_min", "temperature", 0, zero, where_);
+    const bool warms = how_ == "rate" || how_ == "second rate" || how_ == "warms";
+    setup.prescribe("x_min", "temperature", 0,
+                    warms ? Expression::components(std::make_shared<Warming>(how_), 0)[0] : zero, where_);
     if (how_ == "output throws")
       setup.add_output("two", make_quantity(Numbers<2>{"quantity throws"}), {"temperature"});
     setup.add_integral("heat", make_quantity(Numbers<1>{how_}), {"temperature"});

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is given over time moves as its expression says, by every time scheme: values, rates and second rates.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "scene_run.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+const std::string schemes[] = {"theta: 0.5", "theta: 0.7", "theta: 1", "scheme: bdf2"};
+
+/// Largest deviation from a function of time.
+template <class F>
+double off(const Run& run, const std::string& name, const F& expected) {
+  const std::vector<double> time = run.series("time"), found = run.series(name);
+  double largest = 0;
+  for (std::size_t k = 0; k < time.size(); ++k)
+    largest = std::max(largest, std::abs(found[k] - expected(time[k])));
+  return largest;
+}
+
+std::string steps(const std::string& scheme, double end, double step) {
+  return "time: {" + scheme + ", end: " + std::to_string(end) + ", step: {initial: " + std::to_string(step) +
+         "}}\n";
+}
+
+}  // namespace
+
+TEST_CASE("a towed body has the velocity and spin of what is given, at the start and for ever") {
+  for (const std::string& scheme : schemes)
+    for (const double end : {10.0, 100.0}) {
+      const Run run(R"yaml(
+title: A body that is towed and turned
+dimension: 2
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [2, 1]}}}
+fields: {b: {type: rigid_body, mesh: box, density: 1, translation: ["0.3*sin(t)", "exp(-t)"], rotation: ["t + 100*t^2"]}}
+output:
+  fields: false
+  probes: {d: {field: b, quantity: translation}, v: {field: b, quantity: velocity}, a: {field: b, quantity: rotation}, w: {field: b, quantity: spin}}
+)yaml" + steps(scheme, end, end / 200),
+                    "--quiet");
+      CAPTURE(scheme, end, run.done.output);
+      REQUIRE(run.done.code == 0);
+      CHECK(off(run, "d.x", [](double t) { return 0.3 * std::sin(t); }) < 1e-12);
+      CHECK(off(run, "v.x", [](double t) { return 0.3 * std::cos(t); }) < 1e-12);
+      CHECK(off(run, "v.y", [](double t) { return -std::exp(-t); }) < 1e-12);
+      CHECK(off(run, "a", [](double t) { return t + 100 * t * t; }) < 1e-12 * 100 * end * end);
+      CHECK(off(run, "w", [](double t) { return 1 + 200 * t; }) < 1e-12 * 200 * end);
+      // 2 kg, and 2 (4 + 1)/12 kg m^2
+      CHECK(off(run, "b.kinetic_energy", [](double t) {
+              const double x = 0.3 * std::cos(t), y = std::exp(-t), w = 1 + 200 * t;
+              return x * x + y * y + 5.0 / 12 * w * w;
+            }) < 1e-11 * std::pow(200 * end, 2));
+    }
+}
+
+TEST_CASE("a body in space that is turned has the spin of what is given, and its momentum") {
+  for (const std::string& scheme : schemes) {
+    const Run run(R"yaml(
+title: A body that is turned about its third axis
+dimension: 3
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0, 0], to: [2, 1, 1], cells: [2, 1, 1]}}}
+fields: {b: {type: rigid_body, mesh: box, density: 1, translation: ["2*t", 0, 0], rotation: [0, 0, "3*sin(t)"]}}
+output:
+  fields: false
+  probes: {v: {field: b, quantity: velocity}, w: {field: b, quantity: spin}, l: {field: b, quantity: angular_momentum}}
+)yaml" + steps(scheme, 10, 0.1),
+                  "--quiet");
+    CAPTURE(scheme, run.done.output);
+    REQUIRE(run.done.code == 0);
+    CHECK(off(run, "v.x", [](double) { return 2; }) < 1e-12);
+    CHECK(off(run, "w.z", [](double t) { return 3 * std::cos(t); }) < 1e-12);
+    CHECK(off(run, "l.z", [](double t) { return 10.0 / 12 * 3 * std::cos(t); }) < 1e-12);
+    CHECK(off(run, "w.x", [](double) { return 0; }) < 1e-12);
+  }
+}
+
+TEST_CASE("a body that a joint drives has the rate of the motion, and what follows from it") {
+  for (const std::string& scheme : schemes)
+    for (const std::string kind : {"hinge, at: [0, 0]", "slide, at: [0, 0], axis: [0.6, 0.8]"}) {
+      const Run run(R"yaml(
+title: A body that a joint drives
+dimension: 2
+plugins: [solid]
+meshes: {box: {grid: {from: [0, -0.5], to: [2, 0.5], cells: [2, 1]}}}
+fields: {b: {type: rigid_body, mesh: box, density: 1}}
+constraints: [{type: joint, body: b, motion: "2*t + 0.3*sin(t)", kind: )yaml" +
+                        kind + R"yaml(}]
+output:
+  fields: false
+  probes: {v: {field: b, quantity: velocity}, w: {field: b, quantity: spin}}
+)yaml" + steps(scheme, 10, 0.1),
+                    "--quiet");
+      CAPTURE(scheme, kind, run.done.output);
+      REQUIRE(run.done.code == 0);
+      const bool turns = kind[0] == 'h';
+      const auto rate = [](double t) { return 2 + 0.3 * std::cos(t); };
+      const auto angle = [](double t) { return 2 * t + 0.3 * std::sin(t); };
+      CHECK(off(run, "w", [&](double t) { return turns ? rate(t) : 0; }) < 1e-12);
+      CHECK(off(run, "v.x", [&](double t) { return rate(t) * (turns ? -std::sin(angle(t)) : 0.6); }) < 1e-11);
+      CHECK(off(run, "v.y", [&](double t) { return rate(t) * (turns ? std::cos(angle(t)) : 0.8); }) < 1e-11);
+    }
+}
+
+TEST_CASE("boundaries of a solid move as given, and bring its mass to their acceleration") {
+  // Both ends, so all of it: 2 kg.
+  for (const std::string& scheme : schemes)
+    for (const double end : {10.0, 100.0}) {
+      const Run run(R"yaml(
+title: A block that is shaken
+dimension: 2
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [1, 1]}}}
+fields:
+  b:
+    type: solid
+    mesh: box
+    material: {type: neo_hookean, young: 100, poisson: 0.3}
+    density: 1
+    boundary: [{on: [x_min, x_max], displacement: ["0.3*sin(t)", "0.1*t^2"]}]
+output:
+  fields: false
+  probes:
+    v: {field: b, at: [2, 1], quantity: velocity}
+    left: {field: b, on: x_min, quantity: reaction}
+    right: {field: b, on: x_max, quantity: reaction}
+  formulas: {x: left_x + right_x, y: left_y + right_y}
+)yaml" + steps(scheme, end, end / 200),
+                    "--quiet");
+      CAPTURE(scheme, end, run.done.output);
+      REQUIRE(run.done.code == 0);
+      CHECK(off(run, "v.x", [](double t) { return 0.3 * std::cos(t); }) < 1e-12);
+      CHECK(off(run, "v.y", [](double t) { return 0.2 * t; }) < 1e-12 * end);
+      // What is recorded of the start are no forces.
+      const std::vector<double> time = run.series("time"), x = run.series("x"), y = run.series("y");
+      for (std::size_t k = 1; k < time.size(); ++k) {
+        CHECK(x[k] == Approx(-0.6 * std::sin(time[k])).margin(1e-11 * end * end));
+        CHECK(y[k] == Approx(0.4).epsilon(1e-11 * end * end));
+      }
+    }
+}
+
+TEST_CASE("a node beside a given one swings as its balance says, to second order") {
+  // One element, its left end moved by c t^2: w'' + w_0^2 (w - c t^2) = -c of its right end, as its mass is
+  // 1/6 [2 1; 1 2] and its stiffness 100; so w = c t^2 - 3 c/w_0^2 (1 - cos(w_0 t)).
+  const auto errors = [](const std::string& scheme, double step) {
+    const Run run(R"yaml(
+title: A bar with one free node
+dimension: 2
+plugins: [solid]
+parameters: {c: 1e-6}
+meshes: {bar: {grid: {from: [0, 0], to: [1, 1], cells: [1, 1]}}}
+fields:
+  b:
+    type: solid
+    mesh: bar
+    material: {type: neo_hookean, young: 100, poisson: 0}
+    density: 1
+    boundary: [{on: x_min, displacement: ["c*t^2", 0]}, {on: [y_min, y_max], displacement: [null, 0]}]
+solver: {newton: {tolerance: 1e-10}}
+output: {fields: false, probes: {d: {field: b, at: [1, 0.5], quantity: displacement}, v: {field: b, at: [1, 0.5], quantity: velocity}}}
+)yaml" + steps(scheme, 1, step),
+                  "--quiet");
+    CAPTURE(scheme, step, run.done.output);
+    REQUIRE(run.done.code == 0);
+    const double c = 1e-6, w = std::sqrt(300.0);
+    return std::pair(
+        off(run, "d.x", [&](double t) { return c * t * t - c / 100 * (1 - std::cos(w * t)); }) / c,
+        off(run, "v.x", [&](double t) { return 2 * c * t - c / 100 * w * std::sin(w * t); }) / c);
+  };
+  for (const std::string scheme : {"theta: 0.5", "scheme: bdf2"}) {
+    const auto coarse = errors(scheme, 0.01), fine = errors(scheme, 0.005);
+    CAPTURE(scheme, coarse.first, coarse.second, fine.first, fine.second);
+    CHECK(fine.first < 3e-3);
+    CHECK(coarse.first / fine.first == Approx(4).margin(0.8));
+    CHECK(coarse.second / fine.second == Approx(4).margin(0.8));
+  }
+}
+
+TEST_CASE(
+    "a lid that swings costs one iteration a step, as a linear problem does, and is the same on all ranks") {
+  const std::string scene = R"yaml(
+title: Stokes flow under a lid that swings
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [1, 1], cells: [6, 6]}}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1
+    viscosity: 0.1
+    convection: false
+    boundary: [{on: y_max, velocity: ["sin(3*t)*x*(1 - x)", 0]}, {on: [x_min, x_max, y_min], velocity: [0, 0]}]
+output: {fields: false, probes: {v: {field: water, at: [0.4, 0.7], quantity: velocity}}}
+)yaml" + steps("theta: 0.5", 0.5, 0.05);
+  const Run run(scene, "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const auto summary = nlohmann::json::parse(run.folder.read("out/summary.json"));
+  for (const nlohmann::json& step : summary.at("newton")) CHECK(step["iterations"].size() <= 2);
+  for (const std::string ranks : {"2", "3"}) {
+    const Run shared(scene, "--quiet", "mpirun --oversubscribe -np " + ranks);
+    CAPTURE(ranks, shared.done.output);
+    REQUIRE(shared.done.code == 0);
+    const auto alone = run.series("v.x"), together = shared.series("v.x");
+    REQUIRE(together.size() == alone.size());
+    for (std::size_t k = 0; k < alone.size(); ++k) CHECK(together[k] == Approx(alone[k]).margin(1e-10));
+  }
+}
+
+TEST_CASE("a velocity at the start that is not that of the given motion is refused") {
+  const auto started = [](const std::string& velocity) {
+    return Run(R"yaml(
+title: A body that is towed
+dimension: 2
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [2, 1]}}}
+fields:
+  b: {type: rigid_body, mesh: box, density: 1, translation: ["0.3*sin(t)", null], initial: {velocity: )yaml" +
+                   velocity + "}}\noutput: {fields: false}\n" + steps("theta: 0.5", 1, 0.5),
+               "--quiet");
+  };
+  CHECK(started("[0.3, 7]").done.code == 0);
+  const Run wrong = started("[3, 7]");
+  INFO(wrong.done.output);
+  CHECK(wrong.done.code == 2);
+  CHECK_THAT(wrong.done.output,
+             Catch::Matchers::Contains("to start with 3 as a rate of its 'translation' (`initial`), and the "
+                                       "motion given for it sets off with 0.3; leave the initial one out"));
+}
+
+TEST_CASE("where a formula has no rate the time scheme says it") {
+  const Run run(R"yaml(
+title: A body that sets off as no body can
+dimension: 2
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [2, 1]}}}
+fields: {b: {type: rigid_body, mesh: box, density: 1, translation: ["sqrt(t)", 0], rotation: [0]}}
+output: {fields: false, probes: {v: {field: b, quantity: velocity}}}
+)yaml" + steps("theta: 0.5", 1, 0.1),
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  CHECK(run.series("v.x").front() == 0);
+  CHECK(run.series("v.x").back() == Approx(0.5));
+}
