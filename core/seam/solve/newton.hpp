@@ -58,7 +58,8 @@ class Newton {
   void begin(const TimePoint& step);
   /// Takes one iteration. On failure the states are left as they are: rewind them.
   /// @return true while there is something left to do; then report() says how it went
-  /// @throws SingularMatrix when the system is singular, naming the field that is not held
+  /// @throws SingularMatrix when the system is singular: NothingHolds where it names the field that is not
+  /// held
   /// @throws StepRefused when bodies move too far for the step
   bool iterate();
   [[nodiscard]] const NewtonReport& report() const { return report_; }
@@ -86,6 +87,7 @@ class Newton {
   bool take(NewtonIteration& entry);
   bool follow(NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
+  void require_sense(const std::vector<double>& increment) const;
   /// Whether iterations repeat themselves instead of converging.
   [[nodiscard]] bool cycles() const;
   void freeze(bool frozen);
