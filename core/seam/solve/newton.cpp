@@ -287,7 +287,7 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   if (const long long pattern = assembler.matrix().pattern_version; pattern != held_) {
     // What is held at first loses only levels: where fluid is closed in.
     const std::string free = describe_free_modes(problem_, no_resistance, held_ >= 0);
-    if (!free.empty()) throw SingularMatrix("the matrix is singular\n" + free, {});
+    if (!free.empty()) throw NothingHolds("the matrix is singular\n" + free, {});
     held_ = pattern;
   }
   try {
@@ -296,7 +296,7 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   } catch (const SingularMatrix& singular) {
     const std::string who = describe_unsupported(problem_, singular.equations);
     if (who.empty()) throw;
-    throw SingularMatrix(std::string(singular.what()) + "\n" + who, singular.equations);
+    throw NothingHolds(std::string(singular.what()) + "\n" + who, singular.equations);
   }
 }
 

@@ -20,6 +20,12 @@ struct NewtonOptions {
   bool damping = true;  ///< shorten steps that lead to an inadmissible state or a much larger residual
 };
 
+/// A system in which something may change as it likes, by the scene: what() names the fields.
+class NothingHolds : public SingularMatrix {
+ public:
+  using SingularMatrix::SingularMatrix;
+};
+
 /// One iteration, as it is written to the summary.
 struct NewtonIteration {
   double residual = 0;   ///< largest of the unknowns' relative residuals
