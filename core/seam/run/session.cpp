@@ -9,6 +9,7 @@
 #include "seam/assembly/assembler.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/record/derived.hpp"
+#include "seam/run/constraint_doubts.hpp"
 #include "seam/run/scene_doubts.hpp"
 
 namespace seam {
@@ -91,8 +92,10 @@ void Session::find_conflicts() {
     if (std::ranges::none_of(at_start,
                              [&](const Diagnostic& d) { return d.where.text() == later.where.text(); }))
       conflicts.push_back(std::move(later));
-  for (Diagnostic& doubt : scene_doubts({scene_, built_, state_.results, stepper_.start(), stepper_.end()}))
-    conflicts.push_back(std::move(doubt));
+  const SceneAtStart scene{scene_,           built_,         state_.results,
+                           stepper_.start(), stepper_.end(), stepper_.initial()};
+  for (const auto& find : {scene_doubts, constraint_doubts})
+    for (Diagnostic& doubt : find(scene)) conflicts.push_back(std::move(doubt));
   for (Diagnostic& conflict : conflicts)
     warnings_.warning(std::move(conflict.where), std::move(conflict.message));
 }
