@@ -110,6 +110,7 @@ struct RigidForces {
 struct Moment {
   double stiffness, damping;     ///< N m, N m s
   std::vector<Expression> load;  ///< N m; empty for none
+  std::string where;             ///< of the spring, in the scene
 };
 
 struct PlaneMoments {
@@ -139,7 +140,12 @@ struct SpaceMoments {
       const Quaternion<T> q = orientation_of(s, rotation{}, orientation{});
       Vec<3, T> turn = moment.damping * s.rate(rotation{});
       // The rotation vector is the same in the body's axes and in those of space.
-      if (moment.stiffness > 0) turn += moment.stiffness * rotation_vector(q);
+      if (moment.stiffness > 0) {
+        const Vec<3, T> angles = counted_rotation_vector(q);
+        require_within_a_turn(counted_rotation_vector(s.old_value(orientation{})), angles,
+                              "the spring of `rotational_stiffness` at " + moment.where);
+        turn += moment.stiffness * angles;
+      }
       if (!moment.load.empty()) {
         Vec<3, double> load;
         for (int i = 0; i < 3; ++i) load[i] = moment.load[i](x.position.c.data(), dim, x.time);
@@ -286,7 +292,7 @@ Schema RigidBody::schema() {
       .at_least(0);
   s.vector("stiffness", "Springs that hold the centre, per direction").unit("N/m").at_least(0).optional();
   s.vector("damping", "Dashpots at the centre, per direction").unit("N s/m").at_least(0).optional();
-  s.number("rotational_stiffness", "Spring against rotation: moment per angle; in space up to half a turn")
+  s.number("rotational_stiffness", "Spring against rotation: moment per angle; in space up to a turn")
       .unit("N m")
       .otherwise("0")
       .at_least(0);
@@ -343,7 +349,8 @@ void RigidBody::build(FieldSetup& setup) const {
       {"translation"});
   const Moment moment{
       parameters_.number("rotational_stiffness"), parameters_.number("rotational_damping"),
-      parameters_.has("moment") ? parameters_.vector_expression("moment") : std::vector<Expression>{}};
+      parameters_.has("moment") ? parameters_.vector_expression("moment") : std::vector<Expression>{},
+      parameters_.where("rotational_stiffness").text()};
   if (parameters_.has("moment")) require_entries(parameters_, "moment", moment.load.size(), axes(dim));
   if (dim == 2) {
     setup.add_cell_term(make_term(PlaneMoments{moment}), {"rotation"});

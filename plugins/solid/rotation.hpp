@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
 
+#include "seam/base/diagnostics.hpp"
 #include "seam/term/fad.hpp"
 #include "seam/term/tensor.hpp"
 
@@ -85,23 +88,43 @@ Mat<3, 3, T> rotation_tensor(const Quaternion<T>& q) {
   return identity<3>() + (twice * q[3]) * w + twice * (w * w);
 }
 
+/// Of less than a whole turn, the one that has led to this orientation in steps by turned(): q and -q are one
+/// orientation, half a turn more or less away.
+template <class T>
+Vec<3, T> counted_rotation_vector(const Quaternion<T>& q) {
+  using std::atan2, std::sqrt;
+  Vec<3, T> v;
+  for (int i = 0; i < 3; ++i) v[i] = q[i];
+  const T square = dot(v, v);
+  if (plain(q[3]) > 0 && plain(square) < 1e-2 * plain(q[3]) * plain(q[3])) {
+    // atan(x)/x by powers of x^2.
+    const T s = square / (q[3] * q[3]);
+    T sum = T(1.0 / 17);
+    for (int odd = 15; odd > 0; odd -= 2) sum = 1.0 / odd - s * sum;
+    return (2.0 * sum / q[3]) * v;
+  }
+  const T size = sqrt(square);
+  return (2.0 * atan2(size, q[3]) / size) * v;
+}
+
 /// By the shorter way: of at most half a turn, where its direction jumps.
 template <class T>
 Vec<3, T> rotation_vector(const Quaternion<T>& q) {
-  using std::atan2, std::sqrt;
-  const Quaternion<T> p = plain(q[3]) < 0 ? -q : q;
-  Vec<3, T> v;
-  for (int i = 0; i < 3; ++i) v[i] = p[i];
-  const T square = dot(v, v);
-  if (plain(square) < 1e-2 * plain(p[3]) * plain(p[3])) {
-    // atan(x)/x by powers of x^2.
-    const T s = square / (p[3] * p[3]);
-    T sum = T(1.0 / 17);
-    for (int odd = 15; odd > 0; odd -= 2) sum = 1.0 / odd - s * sum;
-    return (2.0 * sum / p[3]) * v;
-  }
-  const T size = sqrt(square);
-  return (2.0 * atan2(size, p[3]) / size) * v;
+  return counted_rotation_vector<T>(plain(q[3]) < 0 ? -q : q);
+}
+
+/// Behind a whole turn a rotation vector points the other way.
+/// @param before, now at both ends of a step @param what turns, with its place in the scene
+/// @throws StepRefused where it has come to that in the step
+template <class T>
+void require_within_a_turn(const Vec<3, T>& before, const Vec<3, T>& now, const std::string& what) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) square += std::pow(plain(now[i]) - plain(before[i]), 2);
+  constexpr double turn = 2 * std::numbers::pi;
+  if (!(square > turn * turn)) return;
+  throw StepRefused(what +
+                    " would be turned by more than a whole turn, beyond which in space its moment has no "
+                    "direction: let it be stiffer, or damp what turns");
 }
 
 /// The unknown `orientation` of a body in space as a kernel's operand: what the orientation was at the start

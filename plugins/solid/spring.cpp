@@ -147,7 +147,7 @@ class TurnCoupling final : public SpringCoupling<TurnSpring> {
     Schema s("A spring and a dashpot side by side, against turns of two bodies relative to each other.");
     declare_strength(s, "N m", "N m s");
     s.vector("axis",
-             "In space, in the reference position: only turns about it count, up to half a turn; default all")
+             "In space, in the reference position: only turns about it count, up to a turn; default all")
         .optional();
     s.number("rest_angle", "Without moment: the first body's angle less the second one's")
         .unit("rad")
@@ -158,7 +158,7 @@ class TurnCoupling final : public SpringCoupling<TurnSpring> {
  private:
   [[nodiscard]] TurnSpring spring(const CouplingSides& sides) const override {
     const Parameters& p = parameters();
-    TurnSpring r{p.number("stiffness"), p.number("damping"), p.number("rest_angle"), {}};
+    TurnSpring r{p.number("stiffness"), p.number("damping"), p.number("rest_angle"), {}, p.where().text()};
     const int dim = dimension_of(sides);
     if (dim == 2 && p.has("axis")) throw Error(p.where("axis"), "in the plane bodies turn about no `axis`");
     if (p.has("axis")) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 
 #include "rotation.hpp"
 #include "seam/base/diagnostics.hpp"
@@ -59,7 +60,8 @@ struct Placed {
   Vec<3, T> translation, velocity;
   Vec<3, T> spin;  ///< angular velocity in the body's axes, rad/s
   Quaternion<T> orientation = turned(no_rotation, Vec<3, T>{});
-  T angle{0.0};  ///< in the plane, any number of turns
+  Quaternion<T> old_orientation = orientation;  ///< at the start of the step
+  T angle{0.0};                                 ///< in the plane, any number of turns
 };
 
 template <bool in_space, bool damped, int bodies, int side, int dim, class T, class Trial>
@@ -73,6 +75,7 @@ Placed<T> placed(const Trial& s) {
     for (int i = 0; i < dim; ++i) body.translation[i] = moved[i];
     if constexpr (in_space) {
       body.orientation = orientation_of(s, rotation, typename Body::orientation{});
+      body.old_orientation = s.old_value(typename Body::orientation{});
     } else {
       body.angle = s.value(rotation);
       Vec<3, T> turn;
@@ -189,16 +192,18 @@ struct SpringForce {
 };
 
 /// A spring and a dashpot side by side against turns of two bodies relative to each other. In space about an
-/// axis that is fixed in both, or against all of a turn; up to half a turn.
+/// axis that is fixed in both, or against all of a turn; up to a whole turn.
 struct TurnSpring {
   double stiffness, damping, rest_angle;  ///< N m, N m s, rad
   std::optional<Vec<3, double>> axis;     ///< in space: in the reference position, of length 1
+  std::string where = {};                 ///< in the scene
 
   template <class T>
   struct State {
     std::array<Vec<3, T>, 2> moment;  ///< on the bodies, about their own axes, N m
     T angle, total, energy;           ///< rad; N m, of spring and dashpot; J
   };
+  /// @throws StepRefused where in space they have come to turn by more than a whole turn
   template <bool in_space, class T>
   [[nodiscard]] State<T> state(const std::array<Placed<T>, 2>& body) const {
     State<T> r;
@@ -210,15 +215,17 @@ struct TurnSpring {
     } else {
       // The first body in the axes of the second one.
       const Quaternion<T> q = product(inverse(body[1].orientation), body[0].orientation);
+      const Quaternion<T> old = product(inverse(body[1].old_orientation), body[0].old_orientation);
       if (axis)
-        about_axis(r, q, body);
+        about_axis(r, q, old, body);
       else
-        against_all(r, q, body);
+        against_all(r, q, old, body);
     }
     return r;
   }
 
  private:
+  [[nodiscard]] std::string name() const { return "the `torsional_spring` at " + where; }
   /// Moment and energy of an angle. @param rate of it
   template <class T>
   void along(State<T>& r, const T& rate) const {
@@ -229,13 +236,15 @@ struct TurnSpring {
   /// The angle is 2 atan2(v . n, w) of the quaternion (v, w); moments are what it does in virtual turns of
   /// the bodies, so that those on both balance wherever the axes point.
   template <class T>
-  void about_axis(State<T>& r, const Quaternion<T>& q, const std::array<Placed<T>, 2>& body) const {
+  void about_axis(State<T>& r, const Quaternion<T>& q, const Quaternion<T>& old,
+                  const std::array<Placed<T>, 2>& body) const {
     using std::atan2;
     Vec<3, T> v;
     for (int i = 0; i < 3; ++i) v[i] = q[i];
     const T w = q[3], along_axis = dot(v, *axis), square = w * w + along_axis * along_axis;
-    const double sign = plain(w) < 0 ? -1 : 1;  // q and -q are one orientation
-    r.angle = 2.0 * atan2(sign * along_axis, sign * w);
+    r.angle = 2.0 * atan2(along_axis, w);
+    const T before = 2.0 * atan2(dot(Vec<3, T>{{old[0], old[1], old[2]}}, *axis), old[3]);
+    require_within_a_turn<T>({{before}}, {{r.angle}}, name());
     Vec<3, T> normal;
     for (int i = 0; i < 3; ++i) normal[i] = T((*axis)[i]);
     const Vec<3, T> across = cross(normal, v), straight = w * normal;
@@ -246,10 +255,12 @@ struct TurnSpring {
   }
   /// The rotation vector is the same in the axes of both bodies.
   template <class T>
-  void against_all(State<T>& r, const Quaternion<T>& q, const std::array<Placed<T>, 2>& body) const {
+  void against_all(State<T>& r, const Quaternion<T>& q, const Quaternion<T>& old,
+                   const std::array<Placed<T>, 2>& body) const {
     using std::sqrt;
     const Mat<3, 3, T> turn = rotation_tensor(q);
-    const Vec<3, T> angles = rotation_vector(q);
+    const Vec<3, T> angles = counted_rotation_vector(q);
+    require_within_a_turn(counted_rotation_vector(old), angles, name());
     r.moment[0] = -(stiffness * angles + damping * (body[0].spin - transpose(turn) * body[1].spin));
     r.moment[1] = -(turn * r.moment[0]);
     const T square = dot(angles, angles), size = dot(r.moment[0], r.moment[0]);

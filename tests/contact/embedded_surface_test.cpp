@@ -189,18 +189,38 @@ TEST_CASE("a surface that lies deeper in the other body than the window looks ba
   CHECK_THROWS_WITH(Stamp(-0.5, 0.06), Catch::Contains("has passed through"));
 }
 
-TEST_CASE("that bodies have come deep into each other is a state, and goes back with a step") {
-  const auto is_deep = [](const Field& body) {
+TEST_CASE("how deep bodies are in each other is a state, which goes back with a step and is forgotten") {
+  const auto overlap = [](const Field& body) {
     for (const AnyState* state : body.state().states())
-      if (state->name() == "stamp/passage/step") return state->numbers() == std::vector<double>{1};
+      if (state->name() == "stamp/passage/step") return state->numbers().at(0);
     FAIL("the stamp has no such state");
-    return false;
+    return 0.0;
+  };
+  const auto lift = [](Stamp& body, double by) {
+    Block& block = body.stamp.blocks()[0];
+    for (std::size_t k = 2; k < block.now.value.size(); k += 3) block.now.value[k] = by;
+    body.surface.follow();
   };
   // Half of what the window looks back is 0.025.
-  CHECK_FALSE(is_deep(Stamp(-0.5, 0.02).stamp));
-  const Stamp deep(-0.5, 0.03);
-  CHECK(is_deep(deep.stamp));
+  CHECK(overlap(Stamp(-0.5, 0.02).stamp) == Approx(0.02));
+  Stamp deep(-0.5, 0.03);
+  CHECK(overlap(deep.stamp) == Approx(0.03));
   const StateStore::Snapshot before = Stamp(-0.5, 0.02).stamp.state().snapshot(0);
   deep.stamp.state().restore(before);
-  CHECK_FALSE(is_deep(deep.stamp));
+  CHECK(overlap(deep.stamp) == Approx(0.02));
+  lift(deep, 0.029);
+  CHECK(overlap(deep.stamp) == Approx(0.001));
+  // Bit by bit, each less than what is looked at in any case.
+  Stamp sinks(-0.5, 0.03);
+  lift(sinks, -0.011);
+  sinks.surface.begin_step();
+  CHECK_THROWS_WITH(lift(sinks, -0.022), Catch::Contains("has passed through"));
+}
+
+TEST_CASE("interfaces between the same bodies remember an overlap each") {
+  Stamp stamp(-0.5, 0.02);
+  const Passage again(stamp.stamp_surface, stamp.step_surface, {0.05, 0.05});
+  const std::vector<AnyState*> states = stamp.stamp.state().states();
+  for (const std::string name : {"stamp/passage/step", "stamp/passage/step 2"})
+    CHECK(std::ranges::count_if(states, [&](const AnyState* state) { return state->name() == name; }) == 1);
 }

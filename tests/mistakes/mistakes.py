@@ -2,10 +2,10 @@
 """Mistakes that users make: kind, what the message has to name, and for each scene what is written instead of what.
 
 Kinds and their shares are those of a review of 84 mistakes: text (keys, types, names) 45 %, references between parts 20 %, names of
-results 10 %, physics that is legal but hardly meant 15 %, files, meshes, restart 10 %.
+results 10 %, physics that is legal but hardly meant 15 %, files, meshes, restart 10 %. Of rigid bodies and constraints those of a later review.
 """
 
-BEAM, CYLINDERS, LEAF = "beam", "cylinders", "leaf"
+BEAM, CYLINDERS, LEAF, BODIES = "beam", "cylinders", "leaf", "bodies"
 
 MISTAKES = [
     # Keys, types, names, ranges.
@@ -98,6 +98,23 @@ MISTAKES = [
     ("physics", "beam", {BEAM: ("      - {on: x_min, displacement: [0, 0]}\n", "")}),
     ("physics", "y_min", {CYLINDERS: ("{on: x_min, velocity", "{on: [x_min, y_min], velocity")}),
     ("physics", "own", {LEAF: ("stress: other", "stress: own")}),
+    # Rigid bodies and what is tied.
+    ("bodies", "but for what is given on boundary 'x_min'", {BODIES: ("field: strut, on: x_max,", "field: strut,")}),
+    ("bodies", "so that nothing there can follow", {BODIES: ("field: strut, on: x_max,", "field: strut, on: x_min,")}),
+    ("bodies", "has the shape of mesh 'arm'", {BODIES: ("type: rigid_surface, mesh: arm", "type: rigid_surface, mesh: cart")}),
+    ("bodies", "of order 2 on a mesh of order 1", {BODIES: ("type: rigid_surface, mesh: arm", "type: rigid_surface, mesh: arm, order: 2")}),
+    ("bodies", "angles are in radians", {BODIES: ("motion: 0.5*t", "motion: 45 + 0.5*t")}),
+    ("bodies", "angles are in radians", {BODIES: ("motion: 0.5*t", "motion: 720*t")}),
+    ("bodies", "angles are in radians", {BODIES: ('rotation: ["0.1*t"]', 'rotation: ["30 + 0.1*t"]')}),
+    ("bodies", "translation", {BODIES: ("initial: {velocity: [0.3, 0], rot", "initial: {velocity: [3, 0], rot")}),
+    ("bodies", "rotation", {BODIES: ("rotation_rate: [0.1]", "rotation_rate: [-0.1]")}),
+    ("bodies", "the coarser side is tied", {BODIES: ("fields: [upper, lower], boundaries: [y_min, y_max]", "fields: [lower, upper], boundaries: [y_max, y_min]")}),
+    ("bodies", "lies on no face", {BODIES: ("from: [6, 0.5], to: [7, 1]", "from: [6, 0.48], to: [7, 1]")}),
+    ("bodies", "no `density`", {BODIES: ("mesh: lid, density: 1,", "mesh: lid,")}),
+    ("bodies", "stiffness", {BODIES: ("stiffness: [1, 0]", "stiffness: [-1, 0]")}),
+    ("bodies", "skin", {BODIES: ("  - {type: rigid, field: skin, body: arm}\n", "")}),
+    ("bodies", "nothing holds them together", {BODIES: ("    boundary: [{on: y_min, displacement: [0, 0]}]\n", "")}),
+    ("bodies", "second joint", {BODIES: ("  - {type: rigid, field: skin", "  - {type: joint, kind: hinge, body: arm, at: [1, 0]}\n  - {type: rigid, field: skin")}),
     # Files, meshes, points, restart.
     ("file", "missing.msh", {BEAM: ('grid: {from: [0, 0], to: [2, 0.2], cells: [10*n, n]}\n    regions: {near: {where: "x < 1"}, far: {where: "x >= 1"}}', "file: missing.msh"), CYLINDERS: ("{grid: {from: [0, 0], to: [1.64, H], cells: [4*n, n]}}", "{file: missing.msh}")}),
     ("file", "outside", {BEAM: ("at: [2, 0.1]", "at: [2.1, 0.1]"), CYLINDERS: ("at: [0.5, 0.2]", "at: [0.5, 2]"), LEAF: ("at: [0.93, 0.6]", "at: [0.93, 0.7]")}),

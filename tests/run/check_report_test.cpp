@@ -120,3 +120,43 @@ TEST_CASE("check --json holds errors and warnings with their places, and the exi
   CHECK_THAT(first["message"].get<std::string>(), Catch::StartsWith("unknown key 'densty'"));
   CHECK(report["diagnostics"][1]["line"] == 10);
 }
+
+TEST_CASE("check refuses what a run refuses where it starts, with one exit code, and nothing else") {
+  const Folder folder;
+  const auto both = [&](const std::string& fields, const std::string& more) {
+    const std::string file =
+        folder.file("s.yaml",
+                    "title: a bar\ndimension: 2\nplugins: [solid]\n"
+                    "meshes: {bar: {grid: {from: [0, -1], to: [0.1, 0], cells: [1, 4]}}}\nfields: {bar: {" +
+                        fields + ", mesh: bar}}\n" + more + "output: {fields: false}\n");
+    return std::pair(
+        seam("check " + file),
+        seam("run " + file + " --quiet --no-picture --overwrite --folder " + (folder.path / "out").string()));
+  };
+  using Catch::Contains;
+  const auto [check, run] = both(
+      "type: solid, material: {type: neo_hookean, young: 10, poisson: 0.3}, body_force: [0, -1], density: 1",
+      "time: {static: true, end: 1}\n");
+  const std::string words = "field 'bar' is not held: its displacement can change by a rotation about z, a";
+  CHECK(check.code == 2);
+  CHECK_THAT(check.output, Contains("s.yaml:5:9: error: " + words));
+  CHECK(run.code == 2);
+  CHECK_THAT(run.output, Contains("s.yaml:5:9: error: the matrix is singular\n" + words));
+  const std::string hinge = "constraints: [{type: joint, kind: hinge, body: bar, at: [0, 0]}]\n";
+  // A load that grows from nothing holds what hangs, but not at the start; without a load nothing moves.
+  for (const std::string time :
+       {"time: {static: true, end: 1}\n", "time: {end: 1, step: {initial: 0.5}}\n"}) {
+    const auto [hangs, swings] = both("type: rigid_body, force: [0, \"-2*t\"]", hinge + time);
+    CAPTURE(hangs.output, swings.output);
+    CHECK(hangs.code == 0);
+    CHECK_THAT(hangs.output, !Contains("warning"));
+    CHECK(swings.code == 0);
+    const auto [idle, stays] = both("type: rigid_body", hinge + time);
+    CAPTURE(idle.output, stays.output);
+    CHECK(idle.code == 0);
+    CHECK_THAT(idle.output,
+               Contains("s.yaml:5:9: warning: nothing acts in the first step on what is not held, so that it "
+                        "goes through: field 'bar' is not held: its rotation can change"));
+    CHECK(stays.code == 0);
+  }
+}

@@ -493,3 +493,44 @@ TEST_CASE("a body without mass that carries others starts as one of hardly any d
   const auto none = ends("0"), little = ends("1e-7");
   for (int k = 0; k < 3; ++k) CHECK(none[k] == Approx(little[k]).epsilon(1e-4));
 }
+
+TEST_CASE("a spring against turns in space is that in the plane up to a turn, and refused beyond") {
+  const auto spinning = [](const std::string& dimension, const std::string& rate,
+                           const std::string& torsional) {
+    const bool plane = dimension == "2";
+    const std::string stiffness = torsional.empty() ? ", rotational_stiffness: 0.2" : "";
+    return Run("title: A block on a spring\ndimension: " + dimension +
+                   "\nplugins: [solid]\nmeshes: {b: {grid: " +
+                   (plane ? "{from: [0, 0], to: [1, 1], cells: [1, 1]}"
+                          : "{from: [0, 0, 0], to: [1, 1, 1], cells: [1, 1, 1]}") +
+                   "}}\nfields:\n  b: {type: rigid_body, mesh: b, density: 1" + stiffness +
+                   ", initial: {rotation_rate: [" + (plane ? "" : "0, 0, ") + rate + "]}}\n" + torsional +
+                   "time: {theta: 0.5, end: 3, step: {initial: 0.01}}\n"
+                   "output: {fields: false, probes: {turn: {field: b, quantity: rotation}}}\n",
+               "--quiet");
+  };
+  const std::string coupling =
+      "interfaces: {l: {type: link, fields: [b]}}\n"
+      "coupling: [{type: torsional_spring, on: l, stiffness: 0.2, damping: 0";
+  for (const std::string torsional : {"", "}]\n", ", axis: [0, 0, 1]}]\n"}) {
+    const std::string spring = torsional.empty() ? "" : coupling + torsional;
+    const Run plane = spinning("2", "5", torsional.empty() ? "" : coupling + "}]\n"),
+              space = spinning("3", "5", spring);
+    CAPTURE(torsional, plane.done.output, space.done.output);
+    REQUIRE(plane.done.code == 0);
+    REQUIRE(space.done.code == 0);
+    const std::vector<double> in_plane = plane.series("turn"), in_space = space.series("turn.z");
+    REQUIRE(*std::ranges::max_element(in_plane) > 4.5);
+    REQUIRE(in_space.size() == in_plane.size());
+    for (std::size_t k = 0; k < in_plane.size(); ++k) CHECK(in_space[k] == Approx(in_plane[k]).margin(2e-3));
+    const Run beyond = spinning("3", "8", spring);
+    CHECK(beyond.done.code == 1);
+    CHECK_THAT(
+        beyond.done.output,
+        Catch::Contains(torsional.empty() ? "the spring of `rotational_stiffness` at "
+                                          : "the `torsional_spring` at ") &&
+            Catch::Contains(torsional.empty() ? "scene.yaml:6:68 would be" : "scene.yaml:8:12 would be") &&
+            Catch::Contains(" would be turned by more than a whole turn, beyond which in space its moment "
+                            "has no direction: let it be stiffer, or damp what turns"));
+  }
+}

@@ -80,3 +80,36 @@ TEST_CASE("each field may have an inverse of its own, and one that is not there 
   CHECK(done.code != 0);
   CHECK_THAT(done.output, Catch::Contains("there is no field 'watre'"));
 }
+
+TEST_CASE("a preconditioner that was made for the rates at the start is not kept where it does not do") {
+  const auto chain = [](int links, const std::string& linear) {
+    std::string meshes, fields, joints;
+    for (int k = 0; k < links; ++k) {
+      const std::string n = std::to_string(k), place = "[" + n + ", 0";
+      meshes += "  m" + n + ": {grid: {from: " + place + "], to: [" + std::to_string(k + 1) +
+                ", 0.2], cells: [2, 1]}}\n";
+      fields += "  b" + n + ": {type: rigid_body, mesh: m" + n + ", density: 1, body_force: [0, -9.81]}\n";
+      joints += "  - {type: joint, kind: hinge, body: b" + n + ", at: " + place + "]" +
+                (k > 0 ? ", to: b" + std::to_string(k - 1) : "") + "}\n";
+    }
+    const Run run("title: A chain\ndimension: 2\nplugins: [solid]\nmeshes:\n" + meshes + "fields:\n" +
+                      fields + "constraints:\n" + joints +
+                      "time: {theta: 0.5, end: 0.1, step: {initial: 0.005}}\n"
+                      "solver: {newton: {tolerance: 1e-11}, linear: " +
+                      linear + "}\noutput: {fields: false, probes: {end: {field: b" +
+                      std::to_string(links - 1) + ", quantity: rotation}}}\n",
+                  "--quiet");
+    CAPTURE(run.done.output);
+    REQUIRE(run.done.code == 0);
+    return run.series("end");
+  };
+  for (const int links : {1, 2, 4}) {
+    const std::vector<double> direct = chain(links, "direct");
+    REQUIRE(direct.size() > 20);
+    for (const std::string inverse : {"ilu", "schur"}) {
+      const std::vector<double> krylov = chain(links, "{type: krylov, preconditioner: " + inverse + "}");
+      REQUIRE(krylov.size() == direct.size());
+      for (std::size_t k = 0; k < direct.size(); ++k) CHECK(krylov[k] == Approx(direct[k]).margin(1e-9));
+    }
+  }
+}

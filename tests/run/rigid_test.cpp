@@ -303,6 +303,31 @@ output:
   CHECK(last("angle") == Approx(-std::atan2(0.1, 0.6)).epsilon(1e-9));
 }
 
+TEST_CASE("a bar that nothing but rounding keeps from turning is refused, and one that hangs is not") {
+  const auto bar = [](const std::string& grid, const std::string& time) {
+    return Run("title: A bar on a hinge\ndimension: 2\nplugins: [solid]\nmeshes: {bar: {grid: {" + grid +
+                   R"yaml(, cells: [10, 1]}}}
+fields:
+  bar: {type: rigid_body, mesh: bar, force: [0, -9.81]}
+constraints: [{type: joint, kind: hinge, body: bar, at: [0, 0]}]
+output: {fields: false, probes: {angle: {field: bar, quantity: rotation}}}
+time: )yaml" + time,
+               "--quiet");
+  };
+  for (const std::string time : {"{static: true, end: 1}", "{end: 1, step: {initial: 0.5}}"}) {
+    const Run balanced = bar("from: [0, -0.05], to: [1, 0.05]", time);
+    CHECK(balanced.done.code == 1);
+    CHECK_THAT(balanced.done.output,
+               Contains("scene.yaml:6:8: error: the matrix is singular but for rounding: in iteration 1 the "
+                        "rotation of field 'bar' at (0.5, ") &&
+                   Contains(") would change by -1.8e+16 rad, and more than 1e+06 rad is no solution"));
+  }
+  const Run hangs = bar("from: [0, -1], to: [0.02, -0.05]", "{static: true, end: 1}");
+  CAPTURE(hangs.done.output);
+  REQUIRE(hangs.done.code == 0);
+  CHECK(hangs.series("angle").back() == Approx(std::atan2(-0.01, 0.525)).epsilon(1e-9));
+}
+
 TEST_CASE("joints and ties of points that cannot be are refused, with their places") {
   const auto refused = [](const std::string& constraints, const std::string& keys = "") {
     const Run run(R"yaml(

@@ -324,3 +324,61 @@ TEST_CASE("what acts on mass is warned of where there is none") {
              !Catch::Contains("warning"));
   CHECK_THAT(output(", body_force: [0, 0]"), !Catch::Contains("warning"));
 }
+
+TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of") {
+  const auto warning = [](const std::string& change) {
+    const Result done = seam("check " SEAM_SOURCE_DIR "/tests/mistakes/bodies.yaml" +
+                             (change.empty() ? "" : " --set '" + change + "'"));
+    CAPTURE(change, done.output);
+    CHECK(done.code == 0);
+    const auto from = done.output.find("warning: ");
+    return from == std::string::npos ? "" : done.output.substr(from, done.output.find('\n', from) - from);
+  };
+  CHECK(warning("") == "");
+  CHECK_THAT(
+      warning("constraints.2={type: rigid, field: strut, body: lid}"),
+      Catch::StartsWith("warning: all of field 'strut' is to follow 'lid', but for what is given on boundary "
+                        "'x_min' (") &&
+          Catch::EndsWith(
+              "bodies.yaml:22:42): that stays, and the cells between are torn; leave what gives it "
+              "out, or say `on`, the boundary that is to follow"));
+  CHECK(warning("fields.skin.mesh=cart") ==
+        "warning: the points of 'skin' are those of mesh 'cart', and 'arm', which they follow, has the shape "
+        "of mesh "
+        "'arm', which lies elsewhere or is of another size: what acts on the points acts on a body with "
+        "another mass "
+        "and centre; take one mesh for both");
+  CHECK(warning("fields.skin.order=2") ==
+        "warning: field 'skin' is of order 2 on a mesh of order 1, with straight edges: a rigid motion of "
+        "these needs "
+        "no more than order 1; for a surface that is curved give the mesh `order: 2`, too, else leave this "
+        "out");
+  CHECK(warning("constraints.0.motion=45 + 0.5*t") ==
+        "warning: the `motion` of the hinge of 'arm' is 45 rad at the start, more than a whole turn, by `45 "
+        "+ 0.5*t`: "
+        "angles are in radians; where degrees are meant, multiply them by pi/180");
+  CHECK(warning("constraints.0.motion=720*t") ==
+        "warning: the `motion` of the hinge of 'arm' changes by 7.2 rad in the first step, of 0.01 s, more "
+        "than half "
+        "a turn, by `720*t`: angles are in radians; where degrees are meant, multiply them by pi/180, else "
+        "take "
+        "shorter steps");
+  CHECK_THAT(
+      warning("fields.cart.rotation=[30 + 0.1*t]"),
+      Catch::StartsWith("warning: the `rotation` of 'cart' is 30 rad at the start, more than a whole turn"));
+  CHECK(warning("constraints.0.motion=6 + 0.5*t") == "");
+  CHECK(warning("fields.cart.initial.velocity=[3, 0]") ==
+        "warning: field 'cart' is to start with the `velocity` 3, and its `translation`, `0.3*t`, gives 0.3: "
+        "it goes "
+        "as is given; say the same, or leave this out");
+  CHECK_THAT(warning("fields.cart.initial.rotation_rate=[-0.1]"),
+             Catch::StartsWith(
+                 "warning: field 'cart' is to start with the `rotation_rate` -0.1, and its `rotation`"));
+  CHECK(warning("constraints.3={type: tied, fields: [lower, upper], boundaries: [y_max, y_min]}") ==
+        "warning: the coarser side is tied: nodes on 'y_max' of field 'lower' are 0.25 m apart, those on "
+        "'y_min' of "
+        "field 'upper', which they keep to, 0.125 m: what lies between the tied nodes follows nothing, and "
+        "the fields "
+        "part there; exchange the two, in `boundaries` as well");
+  CHECK(warning("fields.lower.order=2") == "");
+}

@@ -217,7 +217,7 @@ TEST_CASE("a torsional spring counts the angle of the first body from the second
   const Axis axis{{0.36, 0.48, 0.8}};
   const TurnSpring spring{3, 0.7, 0.4, axis};
   using State = TurnSpring::State<double>;
-  for (const double angle : {-3.0, -1.2, 0.5, 3.0}) {
+  for (const double angle : {-6.0, -3.0, -1.2, 0.5, 3.0, 6.2}) {
     std::array<Motion, 2> bodies = two_bodies();
     bodies[1] = bodies[1].settled();
     bodies[0].old_orientation = turned(bodies[1].old_orientation, angle * axis);

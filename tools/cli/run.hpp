@@ -46,10 +46,11 @@ struct SceneOutcome {
   [[nodiscard]] int exit_code() const;
 };
 
-/// A scene whose solution failed, though the scene itself is well.
+/// A scene whose solution failed.
 class RunFailure : public Error {
  public:
-  /// @param code of the command: `failed`, or `plugin_failure` where a plugin is to blame
+  /// @param code of the command: `failed` where the scene itself is well, `plugin_failure` where a plugin is
+  /// to blame, `broken_input` where the first step shows that the scene is
   RunFailure(const std::string& message, ExitCode code) : Error(message), code_(code) {}
   [[nodiscard]] ExitCode code() const { return code_; }
 

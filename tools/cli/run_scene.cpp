@@ -15,6 +15,7 @@
 #include "seam/output/atomic_file.hpp"
 #include "seam/output/results_folder.hpp"
 #include "seam/run/interruption.hpp"
+#include "seam/solve/newton.hpp"
 
 namespace seam::cli {
 namespace {
@@ -196,8 +197,10 @@ SceneOutcome run_scene(const SceneRun& run) {
     outcome.results = simulation.run(options);
   } catch (const std::exception& error) {
     if (!folder.has_begun()) throw;
-    const bool is_plugins = dynamic_cast<const PluginFault*>(&error) != nullptr;
-    throw RunFailure(record_failure(simulation, folder, communicator), is_plugins ? plugin_failure : failed);
+    ExitCode code = failed;
+    if (dynamic_cast<const PluginFault*>(&error) != nullptr) code = plugin_failure;
+    if (dynamic_cast<const NothingHolds*>(&error) != nullptr) code = broken_input;  // as `check` says
+    throw RunFailure(record_failure(simulation, folder, communicator), code);
   }
   outcome.interruption = simulation.interruption();
   if (!run.stop_after && !outcome.interruption)

@@ -112,6 +112,18 @@ const std::vector<std::array<double, 2>>& places(int dimension) {
   return dimension == 2 ? of_segment : of_triangle;
 }
 
+/// Of a state of these two: interfaces may look at them several times.
+std::string free_name(const BodySurface& own, const BodySurface* other) {
+  const std::string name =
+      fmt::format("{}/passage/{}", own.body().name(), other != nullptr ? other->body().name() : "obstacle");
+  std::string free = name;
+  const std::vector<AnyState*> states = own.body().state().states();
+  for (int number = 2; std::ranges::any_of(states, [&](const AnyState* s) { return s->name() == free; });
+       ++number)
+    free = fmt::format("{} {}", name, number);
+  return free;
+}
+
 }  // namespace
 
 Passage::Passage(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
@@ -119,22 +131,23 @@ Passage::Passage(std::shared_ptr<const BodySurface> own, std::shared_ptr<const B
     : own_(std::move(own)),
       other_(std::move(other)),
       window_(window),
-      is_deep_(own_->body().state().share<char>(
-          {fmt::format("{}/passage/{}", own_->body().name(), other_ ? other_->body().name() : "obstacle"),
-           the_run(own_->body().mesh().communicator())})) {}
+      overlap_(own_->body().state().add<double>(
+          {free_name(*own_, other_.get()), the_run(own_->body().mesh().communicator())})) {}
 
 void Passage::begin_step(Surface opposite) {
   own_start_ = own_->now();
   opposite_start_ = std::move(opposite);
+  deepest_ = overlap_.now()[0];
   has_begun_ = true;
 }
 
 /// Surfaces that overlap by less than half the depth get out of each other's sight only on a way of the other
 /// half.
 bool Passage::is_needed(double way, double least_gap) {
-  char& is_deep = is_deep_.now()[0];
-  if (least_gap < -0.5 * window_.depth) is_deep = 1;
-  return has_begun_ && (is_deep != 0 || way > 0.25 * window_.depth);
+  double& overlap = overlap_.now()[0];
+  overlap = std::max(0.0, -least_gap);
+  deepest_ = std::max(deepest_, overlap);
+  return has_begun_ && (deepest_ > 0.5 * window_.depth || way > 0.25 * window_.depth);
 }
 
 /// Of a point that has a facet far behind it now. It has passed if it got in and did not get out again, or

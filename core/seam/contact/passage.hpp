@@ -32,9 +32,9 @@ class Passage {
                                 const cutting::Vector& normal, bool overlaps, const Surface& now) const;
   std::shared_ptr<const BodySurface> own_, other_;
   ContactWindow window_;
-  /// Whether surfaces have overlapped by so much that they might lose each other bit by bit: a state of the
-  /// run.
-  StateArray<char>& is_deep_;
+  /// By how much surfaces overlap, m: what does so by much might lose sight of the other bit by bit.
+  StateArray<double>& overlap_;
+  double deepest_ = 0;  ///< overlap of the step so far, m
   bool has_begun_ = false;
   Surface own_start_, opposite_start_;
 };

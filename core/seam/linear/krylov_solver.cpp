@@ -90,6 +90,31 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
 void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
                                         const std::vector<double>& b, std::vector<double>& x,
                                         SolveReport& report) {
+  // One that is kept was made for another matrix, as that of rates at the start, which may be too far from
+  // this one.
+  if (worth_keeping(a)) {
+    iterate(a, blocks, b, x, report);
+    if (leaves(a, b, x) <= acceptable_residual_) return;
+    forget();
+    x.assign(x.size(), 0.0);
+  }
+  iterate(a, blocks, b, x, report);
+}
+
+/// The relative residual.
+double KrylovSolver::leaves(const Matrix& a, const std::vector<double>& b,
+                            const std::vector<double>& x) const {
+  std::vector<double> residual, size = b;
+  multiply(a, x, residual);
+  for (int i = 0; i < a.rows; ++i) {
+    residual[i] = weights()[i] * (b[i] - residual[i]);
+    size[i] *= weights()[i];
+  }
+  return norm(a.communicator, residual) / norm(a.communicator, size);
+}
+
+void KrylovSolver::iterate(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                           const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
   const Stopwatch watch;
   report.new_factorisation = !worth_keeping(a);
   // A view of its own for every solve: the same pattern may have been built anew, in other memory.

@@ -12,6 +12,7 @@ struct SceneAtStart {
   const BuiltScene& built;
   const Results& first;  ///< what was recorded there
   double start, end;     ///< s
+  double step;           ///< length of the first one, s
 };
 
 /// What is legal, but hardly meant: an interface of which nothing lies in its field, a field without

@@ -9,6 +9,7 @@
 #include "seam/assembly/assembler.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/record/derived.hpp"
+#include "seam/run/constraint_doubts.hpp"
 #include "seam/run/scene_doubts.hpp"
 
 namespace seam {
@@ -60,8 +61,28 @@ void Session::require_held() {
   problem().assembler().assemble(time_point(stepper_.start(), step, stepper_.theta()), true);
   assembly_seconds_ = processor_seconds() - before;
   const std::string free = describe_free_modes(problem(), no_resistance);
-  if (!free.empty()) throw Error(scene_.root.where("fields"), free);
+  if (!free.empty()) require_first_iteration(free);
   problem().check_levels();
+}
+
+/// Loads that are not there yet at the start may hold what turns about a hinge, and what nothing acts on need
+/// not be held: a run begins with the loads at the end of its first step.
+/// @param free what changes without resistance at the start @throws Error with that where a run ends there
+void Session::require_first_iteration(const std::string& free) {
+  try {
+    step_->begin(state_.time, stepper_.target(state_.time, state_.step), 0);
+    const bool stands = !step_->iterate() && step_->report().converged;
+    step_->rewind();
+    problem().update_spaces(at_);
+    if (stands)
+      warnings_.warning(scene_.root.where("fields"),
+                        "nothing acts in the first step on what is not held, so that it goes through: " +
+                            free.substr(0, free.find_last_not_of('\n') + 1));
+  } catch (const StepRefused&) {
+    throw Error(scene_.root.where("fields"), free);
+  } catch (const SingularMatrix&) {
+    throw Error(scene_.root.where("fields"), free);
+  }
 }
 
 void Session::find_conflicts() {
@@ -71,8 +92,10 @@ void Session::find_conflicts() {
     if (std::ranges::none_of(at_start,
                              [&](const Diagnostic& d) { return d.where.text() == later.where.text(); }))
       conflicts.push_back(std::move(later));
-  for (Diagnostic& doubt : scene_doubts({scene_, built_, state_.results, stepper_.start(), stepper_.end()}))
-    conflicts.push_back(std::move(doubt));
+  const SceneAtStart scene{scene_,           built_,         state_.results,
+                           stepper_.start(), stepper_.end(), stepper_.initial()};
+  for (const auto& find : {scene_doubts, constraint_doubts})
+    for (Diagnostic& doubt : find(scene)) conflicts.push_back(std::move(doubt));
   for (Diagnostic& conflict : conflicts)
     warnings_.warning(std::move(conflict.where), std::move(conflict.message));
 }
@@ -108,7 +131,11 @@ bool Session::iterate(double until) {
     keep_report(singular.what());
     // Where the run starts it is the scene that leaves something unheld. What has been held so far is lost on
     // a state that iterations went astray to, as where a body snaps through.
-    if (state_.step_number == 0 && reports_.back().iterations() == 0) throw;
+    if (state_.step_number == 0 && reports_.back().iterations() == 0) {
+      if (dynamic_cast<const NothingHolds*>(&singular) == nullptr) throw;
+      const Diagnostic place{Diagnostic::Severity::error, scene_.root.where("fields"), singular.what()};
+      throw NothingHolds(place.text(), singular.equations);
+    }
   }
   NewtonReport& report = reports_.back();
   if (report.converged && stepper_.too_inaccurate(step_->error(), until - state_.time)) {

@@ -41,7 +41,7 @@ class Session {
 
   /// Tries a step to this time.
   /// @return whether it was taken; report() says how it went
-  /// @throws Error where a shorter one would be no better
+  /// @throws Error where a shorter one would be no better: NothingHolds where the scene is to blame
   bool step(double until);
   /// Whether nothing is left to do.
   [[nodiscard]] bool finished() const { return stepper_.finished(state_.time); }
@@ -78,6 +78,7 @@ class Session {
 
  private:
   bool iterate(double until);
+  void require_first_iteration(const std::string& free);
   [[nodiscard]] Results observe(const TimePoint& at);
   const Scene& scene_;
   Stepper stepper_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/solve/newton.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -202,6 +202,7 @@ bool Newton::iterate() {
   }
   SolveReport linear;
   solve_linear(increment_, linear);
+  require_sense(increment_);
   entry.linear_iterations = linear.iterations;
   entry.linear_residual = linear.relative_residual;
   report_.linear_seconds += linear.setup_seconds + linear.solve_seconds;
@@ -286,7 +287,7 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   if (const long long pattern = assembler.matrix().pattern_version; pattern != held_) {
     // What is held at first loses only levels: where fluid is closed in.
     const std::string free = describe_free_modes(problem_, no_resistance, held_ >= 0);
-    if (!free.empty()) throw SingularMatrix("the matrix is singular\n" + free, {});
+    if (!free.empty()) throw NothingHolds("the matrix is singular\n" + free, {});
     held_ = pattern;
   }
   try {
@@ -295,8 +296,54 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   } catch (const SingularMatrix& singular) {
     const std::string who = describe_unsupported(problem_, singular.equations);
     if (who.empty()) throw;
-    throw SingularMatrix(std::string(singular.what()) + "\n" + who, singular.equations);
+    throw NothingHolds(std::string(singular.what()) + "\n" + who, singular.equations);
   }
+}
+
+/// What rounding alone resists is no singular matrix to a solver. Next to a change so large all that is left
+/// to add is small, so that iterations would seem to have converged. Collective.
+/// @throws SingularMatrix naming the unknown that changes the most
+void Newton::require_sense(const std::vector<double>& increment) const {
+  constexpr double most = 1e6;  // sizes of the unknown
+  struct Change {
+    int entry, unknown;
+    double sizes, change, at[3];
+  };
+  std::vector<Change> largest;
+  for (std::size_t e = 0; e < problem_.fields().size(); ++e) {
+    const FieldEntry& entry = problem_.fields()[e];
+    for (std::size_t u = 0; u < entry.field->unknowns().size(); ++u) {
+      const Unknown& unknown = entry.field->unknowns()[u];
+      // With time what moves freely may go any way; it turns about itself far less often.
+      if (unknown.scale == 0 || (unknown.role == UnknownRole::motion && at_.step > 0)) continue;
+      const Field::ComponentRange place = entry.field->place(unknown.name);
+      const Block& block = entry.field->blocks()[place.block];
+      for (int node = 0; node < block.space->owned_nodes(); ++node)
+        for (int c = place.offset; c < place.offset + place.components; ++c) {
+          const int row = problem_.assembler().row(*entry.field, place.block, node, place.offset);
+          if (row < 0 || block.prescribed[static_cast<std::size_t>(node) * block.size + c]) continue;
+          const double change = increment[row + c - place.offset], sizes = std::abs(change) / unknown.scale;
+          if (!(sizes > most) || (!largest.empty() && sizes <= largest.front().sizes)) continue;
+          largest.assign(1, {static_cast<int>(e), static_cast<int>(u), sizes, change, {}});
+          std::copy_n(block.space->position(node), entry.mesh->dimension(), largest.front().at);
+        }
+    }
+  }
+  largest = problem_.communicator().gather_all(largest);
+  if (largest.empty()) return;
+  const Change& worst = *std::ranges::max_element(largest, {}, &Change::sizes);
+  const FieldEntry& entry = problem_.fields()[worst.entry];
+  const Unknown& unknown = entry.field->unknowns()[worst.unknown];
+  throw SingularMatrix(
+      fmt::format(
+          "{}: error: the matrix is singular but for rounding: in iteration {} the {} of field '{}' at "
+          "({:.6g}) would change by {:.2g} {}, and more than {:.0e} {} is no solution; next to nothing "
+          "resists it where it is, as where a body is balanced or its weight has no lever to act "
+          "by; let something hold it, or begin nearer to where it comes to rest",
+          entry.where.text(), iteration_ + 1, unknown.name, entry.name,
+          fmt::join(worst.at, worst.at + entry.mesh->dimension(), ", "), worst.change, unknown.unit,
+          most * unknown.scale, unknown.unit),
+      {});
 }
 
 void Newton::solve_initial_rates(double time) {

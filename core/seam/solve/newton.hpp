@@ -20,6 +20,12 @@ struct NewtonOptions {
   bool damping = true;  ///< shorten steps that lead to an inadmissible state or a much larger residual
 };
 
+/// A system in which something may change as it likes, by the scene: what() names the fields.
+class NothingHolds : public SingularMatrix {
+ public:
+  using SingularMatrix::SingularMatrix;
+};
+
 /// One iteration, as it is written to the summary.
 struct NewtonIteration {
   double residual = 0;   ///< largest of the unknowns' relative residuals
@@ -58,7 +64,8 @@ class Newton {
   void begin(const TimePoint& step);
   /// Takes one iteration. On failure the states are left as they are: rewind them.
   /// @return true while there is something left to do; then report() says how it went
-  /// @throws SingularMatrix when the system is singular, naming the field that is not held
+  /// @throws SingularMatrix when the system is singular: NothingHolds where it names the field that is not
+  /// held
   /// @throws StepRefused when bodies move too far for the step
   bool iterate();
   [[nodiscard]] const NewtonReport& report() const { return report_; }
@@ -86,6 +93,7 @@ class Newton {
   bool take(NewtonIteration& entry);
   bool follow(NewtonIteration& entry);
   void solve_linear(std::vector<double>& increment, SolveReport& report);
+  void require_sense(const std::vector<double>& increment) const;
   /// Whether iterations repeat themselves instead of converging.
   [[nodiscard]] bool cycles() const;
   void freeze(bool frozen);
