@@ -10,6 +10,7 @@
 #include <numeric>
 #include <optional>
 
+#include "carried.hpp"
 #include "joint_conditions.hpp"
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/together.hpp"
@@ -85,7 +86,7 @@ std::array<double, both + 1>& entries(std::array<double, both + 1>& row) { retur
 
 /// Holds a rigid body to another one, to the ground or to a boundary of a body that deforms: as many of its
 /// unknowns follow from the rest as the joint takes freedoms.
-class Joint final : public Constraint {
+class Joint final : public Constraint, public HoldsField, public Carried {
  public:
   explicit Joint(const Parameters& p)
       : where_(p.where()),
@@ -138,6 +139,7 @@ class Joint final : public Constraint {
     if (to_) present.partner = to_->present(ties);
     if (deforming_ != nullptr) present.nodes = boundary_nodes(ties);
     for (const Weighed& node : present.nodes) present.mean += node.weight * node.displacement;
+    last_.body = present.body;
     together(*communicator_, [&] {
       if (!body_.owned()) return;
       // Which unknowns follow does not change within a step: one that is as good as another would come and
@@ -149,7 +151,71 @@ class Joint final : public Constraint {
     });
   }
 
+  [[nodiscard]] const Field& held() const override { return body_.field(); }
+
+  [[nodiscard]] std::vector<Force> forces() const override {
+    return {{"joint_force", dimension_}, {"joint_moment", dimension_ == 3 ? 3 : 1}};
+  }
+
+  [[nodiscard]] std::vector<double> force(const std::string& name, const Left& left,
+                                          const std::vector<const Constraint*>& all) const override {
+    const Forces on = on_body(left, all);
+    const Vec<3, double> force{{on[0], on[1], on[2]}};
+    if (name == "joint_force") return {force.c.begin(), force.c.begin() + dimension_};
+    // About the joint in axes of space, from that about the centre in the body's axes.
+    const Mat<3, 3, double> turn = last_.body.turn(Vec<3, double>{last_.body.rotation});
+    Direction arm = *at_;
+    for (int d = 0; d < dimension_; ++d) arm[d] -= last_.body.centre.position[d];
+    const Vec<3, double> moment = turn * Vec<3, double>{{on[3], on[4], on[5]}} - skew(turn * arm) * force;
+    return {moment.c.begin() + (dimension_ == 3 ? 0 : 2), moment.c.end()};
+  }
+
+  [[nodiscard]] const Field* carrier() const override { return to_ ? &to_->field() : nullptr; }
+
+  [[nodiscard]] Forces handed_on(const Left& left, const std::vector<const Constraint*>& all) const override {
+    const std::vector<double> followers = on_followers(left, all);
+    Forces forces{};
+    for (std::size_t r = 0; r < followers.size(); ++r)
+      for (int k = 0; k < other; ++k) forces[k] += last_.handed[r][other + k] * followers[r];
+    return summed(forces);
+  }
+
  private:
+  /// What was tied last, on the rank that has the body.
+  struct Tied {
+    RigidPosition body;                            ///< on all ranks
+    std::vector<int> follower;                     ///< unknowns of the body that follow
+    std::vector<std::array<double, both>> handed;  ///< [follower][what it follows]
+  };
+
+  /// The force that holds each unknown that follows: what its equation leaves, and what is handed on to it.
+  [[nodiscard]] std::vector<double> on_followers(const Left& left,
+                                                 const std::vector<const Constraint*>& all) const {
+    const Forces handed = handed_on_to(body_.field(), left, all);
+    std::vector<double> forces;
+    for (const int k : last_.follower) forces.push_back(body_.left(left, k) + handed[k]);
+    return forces;
+  }
+
+  /// What the joint exerts on all unknowns of the body. Where it moves as it may, that does no work.
+  [[nodiscard]] Forces on_body(const Left& left, const std::vector<const Constraint*>& all) const {
+    const std::vector<double> followers = on_followers(left, all);
+    Forces forces{};
+    for (std::size_t r = 0; r < followers.size(); ++r) {
+      forces[last_.follower[r]] += followers[r];
+      for (int k = 0; k < other; ++k) forces[k] -= last_.handed[r][k] * followers[r];
+    }
+    return summed(forces);
+  }
+
+  [[nodiscard]] Forces summed(const Forces& own) const {
+    std::vector<double> sum(own.begin(), own.end());
+    communicator_->sum(sum);
+    Forces forces{};
+    std::ranges::copy(sum, forces.begin());
+    return forces;
+  }
+
   /// @throws Error where it is no number: an increment that is none would pass for one that is met
   [[nodiscard]] double given_motion(double time) const {
     const double value = (*motion_)(at_->c.data(), dimension_, time);
@@ -395,7 +461,11 @@ class Joint final : public Constraint {
       }
       by_motion[l] = present.change(by_motion[l]);
     }
+    last_.follower = pivot;
+    last_.handed.assign(rows.size(), {});
     for (std::size_t r = 0; r < rows.size(); ++r) {
+      for (int k = 0; k < both; ++k)
+        if (stays(k)) last_.handed[r][k] = -rows[r].motion[k].v;
       std::vector<TiedTo> to;
       double constant = present.value(pivot[r]) - values[r][both];
       for (int k = 0; k < both; ++k) {
@@ -498,6 +568,7 @@ class Joint final : public Constraint {
   Field* deforming_ = nullptr;                   ///< what the boundary belongs to
   Field::ComponentRange place_{};                ///< of its displacement
   std::vector<std::pair<int, double>> weights_;  ///< of local nodes in the mean over the boundary
+  mutable Tied last_;
 };
 
 }  // namespace

@@ -40,6 +40,9 @@ SEAM_PLUGIN(registry) {
         "of a body with mass in space, about its centre"},
        {Published::As::quantity, "velocity", "m/s", "of the centre; of a body with mass or a dashpot"},
        {Published::As::quantity, "spin", "rad/s", "angular velocity, in axes of space; likewise"},
+       {Published::As::quantity, "joint_force", "N", "what its `joint` exerts on it; of probes"},
+       {Published::As::quantity, "joint_moment", "N m",
+        "likewise, about where the joint is; in axes of space"},
        {Published::As::series, "kinetic_energy", "J", "of a body with mass"}});
   registry.add<Physics>(
       "field", "rigid_surface", solid::RigidSurface::schema(),

@@ -5,6 +5,7 @@
 
 #include "rotation.hpp"
 #include "seam/assembly/ties.hpp"
+#include "seam/constraint/holds_field.hpp"
 #include "seam/field/field.hpp"
 
 namespace seam::solid {
@@ -58,6 +59,10 @@ class RigidUnknowns {
   [[nodiscard]] bool free(int number) const;
   [[nodiscard]] bool exists(int number) const {
     return number < 3 ? number < translation_.components : number - 3 >= first_axis();
+  }
+  /// What forces leave of the equation of an unknown. @pre this rank owns the body
+  [[nodiscard]] double left(const HoldsField::Left& left, int number) const {
+    return left(*field_, translation_.block, 0, component(number));
   }
   [[nodiscard]] bool owned() const { return block().space->owned_nodes() > 0; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rigid_surface.hpp"
 
+#include "carried.hpp"
 #include "quantities.hpp"
 #include "rigid_motion.hpp"
 #include "seam/base/diagnostics.hpp"
@@ -15,7 +16,7 @@ namespace {
 /// u = x + (R - I) (X - X0): the displacement of each node of a field, or of one of its boundaries, follows
 /// from the translation x and the rotation R of a rigid body with centre X0. Its forces act on the body with
 /// the moments that they have about the body's axes.
-class Rigid final : public Constraint {
+class Rigid final : public Constraint, public Carried {
  public:
   explicit Rigid(const Parameters& p)
       : where_(p.has("on") ? p.where("on") : p.where()),
@@ -32,6 +33,7 @@ class Rigid final : public Constraint {
 
   void tie(Ties& ties, const TimePoint&) const override {
     const RigidPosition at = body_.present(ties);
+    at_ = at;
     const int owned = surface_->blocks()[place_.block].space->owned_nodes();
     bool any = false;
     if (boundary_.empty())
@@ -45,8 +47,39 @@ class Rigid final : public Constraint {
                             "'; leave what gives it out, or this constraint");
   }
 
+  [[nodiscard]] const Field* carrier() const override { return &body_.field(); }
+
+  [[nodiscard]] Forces handed_on(const HoldsField::Left& left,
+                                 const std::vector<const Constraint*>&) const override {
+    std::vector<double> sum(6, 0.0);
+    const int owned = surface_->blocks()[place_.block].space->owned_nodes();
+    if (boundary_.empty())
+      for (int node = 0; node < owned; ++node) add_handed_on(left, node, sum);
+    for (const int node : nodes_)
+      if (node < owned) add_handed_on(left, node, sum);
+    surface_->mesh().communicator().sum(sum);
+    Forces forces{};
+    std::ranges::copy(sum, forces.begin());
+    return forces;
+  }
+
  private:
   using First = Fad<3, double>;
+
+  void add_handed_on(const HoldsField::Left& left, int node, std::vector<double>& sum) const {
+    const Block& block = surface_->blocks()[place_.block];
+    const int dim = surface_->mesh().dimension();
+    Vec<3, double> arm, force, rotation{at_.rotation};
+    for (int i = 0; i < dim; ++i) {
+      arm[i] = block.space->position(node)[i] - at_.centre.position[i];
+      if (is_free(block, node, place_.offset + i))
+        force[i] = left(*surface_, place_.block, node, place_.offset + i);
+      sum[i] += force[i];
+    }
+    // About the body's axes.
+    const Vec<3, double> moment = skew(arm) * (transpose(at_.turn(rotation)) * force);
+    for (int k = body_.first_axis(); k < 3; ++k) sum[3 + k] += moment[k];
+  }
 
   /// @return whether any of its components follow
   bool tie_node(Ties& ties, const RigidPosition& at, int node) const {
@@ -95,6 +128,7 @@ class Rigid final : public Constraint {
   Field::ComponentRange place_{};
   std::vector<int> nodes_;  ///< of the boundary
   RigidUnknowns body_;
+  mutable RigidPosition at_;  ///< where the body was when points were tied last
 };
 
 }  // namespace

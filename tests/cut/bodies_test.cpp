@@ -148,6 +148,23 @@ TEST_CASE("Open surfaces cut off what lies behind them", "[cut][bodies]") {
   }
 }
 
+TEST_CASE("An open surface that ends on the border cuts in any unit, turned, and of short facets",
+          "[cut][bodies]") {
+  for (const double size : {1.0, 1e-9})
+    for (const int facets : {1, 4000}) {
+      const Placement placed = rotated(2, 0.3, {size, size, size}, {0, 0, 0});
+      const Mesh mesh = grid(CellType::quadrilateral, {8, 6, 0}, placed);
+      std::vector<Point> points;
+      for (int k = 0; k <= facets; ++k) points.push_back(placed({static_cast<double>(k) / facets, .4, 0}));
+      const Surface s = open_line(points);
+      CutMesh cut(mesh);
+      INFO(size << ", " << facets);
+      cut.cut(std::span(&s, 1));
+      check_closure(cut);
+      CHECK(total_fluid(cut) / (size * size) == Approx(.4).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("Both walls of a channel in one open surface, and a body touching a wall", "[cut][bodies]") {
   const Mesh mesh = grid(CellType::quadrilateral, {8, 6, 0}, unmoved());
   CutMesh cut(mesh);

@@ -367,13 +367,6 @@ TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of
       warning("fields.cart.rotation=[30 + 0.1*t]"),
       Catch::StartsWith("warning: the `rotation` of 'cart' is 30 rad at the start, more than a whole turn"));
   CHECK(warning("constraints.0.motion=6 + 0.5*t") == "");
-  CHECK(warning("fields.cart.initial.velocity=[3, 0]") ==
-        "warning: field 'cart' is to start with the `velocity` 3, and its `translation`, `0.3*t`, gives 0.3: "
-        "it goes "
-        "as is given; say the same, or leave this out");
-  CHECK_THAT(warning("fields.cart.initial.rotation_rate=[-0.1]"),
-             Catch::StartsWith(
-                 "warning: field 'cart' is to start with the `rotation_rate` -0.1, and its `rotation`"));
   CHECK(warning("constraints.3={type: tied, fields: [lower, upper], boundaries: [y_max, y_min]}") ==
         "warning: the coarser side is tied: nodes on 'y_max' of field 'lower' are 0.25 m apart, those on "
         "'y_min' of "

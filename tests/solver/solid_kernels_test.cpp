@@ -156,6 +156,16 @@ TEST_CASE("the mean stress of the mixed form is its pressure, the rest that of t
     std::copy(found.begin(), found.end(), stress.begin());
     CHECK(test::at_one_point(*make_quantity(MixedVonMises{{material}}), dim, in, 1)[0] ==
           Approx(von_mises(stress)).epsilon(1e-12));
+    // Where it is another one, the rest is that of a body of this dilation with the same shape.
+    const double dilation = 0.4, volume = determinant(g + identity<3>());
+    in.back() = dilation;
+    const auto swollen = test::at_one_point(*make_quantity(MixedCauchyStress{material}), dim, in, 6);
+    const auto shaped =
+        cauchy_stress<3>(*material, std::cbrt((1 + dilation) / volume) * (g + identity<3>()) - identity<3>());
+    const double mean_of_shaped = (shaped[0] + shaped[1] + shaped[2]) / 3;
+    for (int k = 0; k < 6; ++k)
+      CHECK(swollen[k] ==
+            Approx(shaped[k] + (k < 3 ? pressure - mean_of_shaped : 0)).epsilon(1e-12).margin(1e-13));
   }
 }
 

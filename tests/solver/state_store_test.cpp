@@ -97,6 +97,9 @@ TEST_CASE("a state is found again by global numbers", "[ranks]") {
     StateArray<double>& state = store.add<double>({on->name(), on, 2, 2});
     std::vector<double> all(static_cast<std::size_t>(on->global_bound()) * 2);
     CHECK(on->global_bound() == (on->name() == "cell" ? 25 : 100));
+    const int points = on->name() == "cell" ? 1 : 4;
+    for (int e = 0; e < on->count(); ++e)
+      CHECK(on->global(e) == mesh->global_cell(e / points) * points + e % points);
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = 0.5 * static_cast<double>(i);
     state.take(all);
     for (int e = 0; e < on->count(); ++e)

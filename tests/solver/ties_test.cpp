@@ -146,6 +146,39 @@ TEST_CASE("coefficients that depend on the state are differentiated", "[ranks]")
   CHECK(flux[1] + (1 + value(field, b)) * (flux[0] + 2 * flux[2]) == Approx(0).margin(1e-10));
 }
 
+TEST_CASE("what coefficients change with may be another field's, and lie on any rank", "[ranks]") {
+  // c_a = (1 + w) c_b with w of a second field, to which nothing is tied.
+  auto problem = test::diffusion_problem(CellType::quadrilateral, 6, {});
+  problem->add_field("second",
+                     std::make_shared<Mesh>("box", test::box(CellType::quadrilateral, 5), Communicator()),
+                     std::make_unique<test::DiffusionPhysics>(test::Options{}));
+  const Field &field = *problem->fields()[0].field, &second = *problem->fields()[1].field;
+  const std::array<double, 2> w{0.8, 0.8};
+  problem->add_constraint(
+      std::make_unique<Said>(field,
+                             [&](Ties& ties, const Field& of) {
+                               const double v = value(second, w);
+                               const UnknownPlace with = at(ties, second, w);
+                               ties.tie(at(ties, of, a), {{at(ties, of, b), 1 + v, 1 + v}}, 0);
+                               ties.add_change(at(ties, of, b), with, 1);
+                             }),
+      {"scene.yaml", 7, 3});
+  problem->finish();
+  problem->initialise(0);
+  const NewtonReport report = test::solve_static(*problem);
+  INFO(report.reason);
+  REQUIRE(report.converged);
+  CHECK(std::abs(value(second, w)) > 0.01);
+  CHECK(value(field, a) == Approx((1 + value(second, w)) * value(field, b)).epsilon(1e-11));
+  if (problem->communicator().size() > 1) {
+    // The node has become known where the tie is.
+    const Ties ties({problem->fields()[0].field.get(), problem->fields()[1].field.get()});
+    const UnknownPlace tied = at(ties, field, a), with = at(ties, second, w);
+    if (problem->communicator().rank() == tied.owner)
+      CHECK(second.blocks()[0].space->local_node(with.node) >= 0);
+  }
+}
+
 TEST_CASE("second rates of what is tied are those of the others, and what turning adds", "[ranks]") {
   // c_a = c_b + c_b^2/2, hence c_a'' = (1 + c_b) c_b'' + c_b'^2.
   const auto problem = problem_with([](Ties& ties, const Field& field) {

@@ -340,4 +340,23 @@ std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const st
   return sum;
 }
 
+const HoldsField* find_holding(const Problem& problem, const FieldEntry& entry, const std::string& name) {
+  for (const Constraint* constraint : problem.constraints()) {
+    const auto* holds = dynamic_cast<const HoldsField*>(constraint);
+    if (holds == nullptr || &holds->held() != entry.field.get()) continue;
+    const std::vector<HoldsField::Force> forces = holds->forces();
+    if (std::ranges::find(forces, name, &HoldsField::Force::name) != forces.end()) return holds;
+  }
+  return nullptr;
+}
+
+std::vector<double> holding_force(const Problem& problem, const HoldsField& holds, const std::string& name) {
+  const Assembler& assembler = problem.assembler();
+  const auto left = [&](const Field& field, int block, int node, int component) {
+    const int row = assembler.row(field, block, node, component);
+    return row < 0 ? 0.0 : assembler.full_residual()[row];
+  };
+  return holds.force(name, left, problem.constraints());
+}
+
 }  // namespace seam

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "seam/assembly/domains.hpp"
+#include "seam/constraint/holds_field.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/solve/problem.hpp"
 
@@ -73,5 +74,10 @@ class ProbePoint {
 /// Sum of the forces that hold the prescribed components of an unknown on boundaries. Collective.
 std::vector<double> reaction(Problem& problem, const FieldEntry& entry, const std::string& unknown,
                              const std::vector<std::string>& boundaries);
+
+/// The constraint that holds a field with a force of this name, or null.
+const HoldsField* find_holding(const Problem& problem, const FieldEntry& entry, const std::string& name);
+/// That force. Collective.
+std::vector<double> holding_force(const Problem& problem, const HoldsField& holds, const std::string& name);
 
 }  // namespace seam

@@ -73,14 +73,14 @@ Probe::Probe(std::string name, const Parameters& p, Problem& problem)
   if (p.has("interface")) interface_ = p.text("interface");
   if (p.has("on")) boundaries_ = p.names("on");
   if (p.has("component")) component_ = p.text("component");
-  choose_quantity(p, entry);
-  if (!interface_.empty() || !boundaries_.empty()) return;
+  choose_quantity(p, entry, problem);
+  if (!interface_.empty() || !boundaries_.empty() || holding_ != nullptr) return;
   const bool on_point = entry.physics->support() == Support::point;
   if (!p.has("at") && !on_point) throw Error(p.where(), "a probe needs `at`, a point, or `on`, boundaries");
   point_.emplace(entry, p.has("at") ? p.vector("at") : std::vector<double>(3, 0.0), p.where("at"));
 }
 
-void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
+void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry, const Problem& problem) {
   // The force that holds what is prescribed: known only where something is prescribed.
   reaction_ = quantity_name_ == "reaction";
   force_ = quantity_name_ == "force" && !interface_.empty();
@@ -94,8 +94,13 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry) {
   try {
     if (reaction_ && boundaries_.empty())
       throw Error("a reaction needs `on`, the boundaries on which something is prescribed");
+    if (interface_.empty() && boundaries_.empty()) holding_ = find_holding(problem, entry, quantity_name_);
+    if (holding_ != nullptr) {
+      const std::vector<HoldsField::Force> forces = holding_->forces();
+      quantity_.components = std::ranges::find(forces, quantity_name_, &HoldsField::Force::name)->components;
+    }
     exerted_ = reaction_ ? unknown_of_reaction(entry, boundaries_) : entry.field->unknowns().at(0).name;
-    quantity_ = find_quantity(entry, exerted ? exerted_ : quantity_name_);
+    if (holding_ == nullptr) quantity_ = find_quantity(entry, exerted ? exerted_ : quantity_name_);
     if (moment_about_ && quantity_.components != entry.mesh->dimension())
       throw Error(fmt::format("what '{}' exerts has no moment: '{}' is no vector", interface_, exerted_));
     if (quantity_.components == 1 && !component_.empty() && component_ != "magnitude" && !force_)
@@ -112,6 +117,7 @@ std::vector<double> Probe::evaluate(Problem& problem, const TimePoint& at) const
   if (moment_about_) return interface_moment(problem, interface_, entry, *moment_about_, at);
   if (!interface_.empty()) return interface_integral(problem, interface_, quantity_, at);
   if (reaction_) return reaction(problem, entry, exerted_, boundaries_);
+  if (holding_ != nullptr) return holding_force(problem, *holding_, quantity_name_);
   if (point_) return point_->evaluate(entry, quantity_, at);
   return boundary_integral(entry, boundaries_, quantity_, at);
 }

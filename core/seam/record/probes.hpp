@@ -18,7 +18,7 @@ class Probe {
   void record(Problem& problem, const TimePoint& at, Results& results) const;
 
  private:
-  void choose_quantity(const Parameters& parameters, const FieldEntry& entry);
+  void choose_quantity(const Parameters& parameters, const FieldEntry& entry, const Problem& problem);
   [[nodiscard]] std::vector<double> evaluate(Problem& problem, const TimePoint& at) const;
   std::string name_;
   Location where_;  ///< of the component, else of the probe
@@ -31,8 +31,9 @@ class Probe {
   bool force_ = false;
   std::optional<std::array<double, 3>> moment_about_;
   bool reaction_ = false;
-  std::string exerted_;    ///< the unknown that a reaction holds, or that a force works on
-  std::string component_;  ///< "", "x", "y", "z" or "magnitude"
+  const HoldsField* holding_ = nullptr;  ///< whose force it is
+  std::string exerted_;                  ///< the unknown that a reaction holds, or that a force works on
+  std::string component_;                ///< "", "x", "y", "z" or "magnitude"
 };
 
 /// The unknown whose reaction is recorded on boundaries: the first one of the field that is prescribed there;

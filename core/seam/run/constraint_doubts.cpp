@@ -9,7 +9,6 @@
 #include <limits>
 #include <numbers>
 
-#include "seam/base/rates.hpp"
 #include "seam/field/field.hpp"
 #include "seam/mesh/mesh.hpp"
 #include "seam/scene/expression.hpp"
@@ -142,34 +141,6 @@ class ConstraintDoubts {
         if (body.component_given("rotation", static_cast<int>(d)))
           look_at_angle(body.where("rotation"), fmt::format("the `rotation` of '{}'", name),
                         body.vector_expression("rotation")[d], centre);
-    if (!body.has("initial")) return;
-    look_at_start(name, body, "velocity", "translation", centre);
-    look_at_start(name, body, "rotation_rate", "rotation", centre);
-  }
-
-  /// A rate at the start is for what is free; of what is given it is that of what gives it.
-  void look_at_start(const std::string& name, const Parameters& body, const std::string& rate,
-                     const std::string& motion, const double* centre) {
-    const Parameters& initial = body.object("initial");
-    if (!initial.has(rate) || !body.has(motion)) return;
-    const std::vector<double>& starts = initial.vector(rate);
-    for (std::size_t d = 0; d < std::min(starts.size(), body.vector_expression(motion).size()); ++d) {
-      if (starts[d] == 0 || !body.component_given(motion, static_cast<int>(d))) continue;
-      const Expression& given = body.vector_expression(motion)[d];
-      const auto value = [&](double t) { return given(centre, at_.scene.root.dimension(), t); };
-      // Where it sets off at the start either side may be meant.
-      const double shortly = 1e-6 * at_.step, before = rates_of(value, at_.start)[0],
-                   then = (value(at_.start + shortly) - value(at_.start)) / shortly;
-      const auto differs = [&](double from) {
-        return std::abs(starts[d] - from) > 1e-3 * std::abs(starts[d]);
-      };
-      if (!differs(before) || !differs(then)) continue;
-      warn(initial.where(rate),
-           fmt::format(
-               "field '{}' is to start with the `{}` {:.4g}, and its `{}`, `{}`, gives {:.4g}: it goes "
-               "as is given; say the same, or leave this out",
-               name, rate, starts[d], motion, given.text(), then));
-    }
   }
 
   void look_at_order(const std::string& name, const Parameters& skin) {

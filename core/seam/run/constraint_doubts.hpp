@@ -5,8 +5,8 @@
 
 namespace seam {
 
-/// What is legal, but hardly meant, of rigid bodies and of what constraints tie: angles in degrees, a start
-/// against a given motion, points that follow another shape, the finer side of two that is not the tied one.
+/// What is legal, but hardly meant, of rigid bodies and of what constraints tie: angles in degrees,
+/// points that follow another shape, the finer side of two that is not the tied one.
 std::vector<Diagnostic> constraint_doubts(const SceneAtStart& scene);
 
 }  // namespace seam

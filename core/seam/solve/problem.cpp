@@ -247,6 +247,12 @@ void Problem::add_constraint(std::unique_ptr<Constraint> constraint, const Locat
   constraints_.emplace_back(std::move(constraint), where);
 }
 
+std::vector<const Constraint*> Problem::constraints() const {
+  std::vector<const Constraint*> all;
+  for (const auto& [constraint, where] : constraints_) all.push_back(constraint.get());
+  return all;
+}
+
 void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
   entry.field->occupy(active, cut);
   for (auto& [domain, terms] : domains_) domain->update(*entry.field);

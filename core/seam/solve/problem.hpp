@@ -121,6 +121,7 @@ class Problem {
   /// Collective.
   /// @throws Error when it does not go with the fields
   void add_constraint(std::unique_ptr<Constraint> constraint, const Location& where = {});
+  [[nodiscard]] std::vector<const Constraint*> constraints() const;
   /// Lets the interface be found by its name in the scene.
   void name_interface(const std::string& name, std::vector<InterfacePart> parts) {
     interfaces_[name] = std::move(parts);
@@ -150,6 +151,7 @@ class Problem {
   void finish(double time = 0, bool shape_derivatives = true);
 
   [[nodiscard]] Assembler& assembler() { return *assembler_; }
+  [[nodiscard]] const Assembler& assembler() const { return *assembler_; }
   [[nodiscard]] const Communicator& communicator() const { return communicator_; }
   [[nodiscard]] std::vector<FieldEntry>& fields() { return fields_; }
   [[nodiscard]] const std::vector<FieldEntry>& fields() const { return fields_; }
