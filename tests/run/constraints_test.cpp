@@ -365,16 +365,15 @@ TEST_CASE("parts that are tied to each other and that nothing holds as a whole a
   for (const char* ranks : {"", "mpirun --oversubscribe -np 2"})
     for (const std::string& other : {upper, plate}) {
       const Folder folder;
-      const Result loose =
-          seam("check " + folder.file("scene.yaml", head + "fields:\n  lower: " + block(load) + other), ranks);
+      const Result loose = seam(
+          "check " + folder.file("scene.yaml", head + "fields:\n  lower: " + block(load) + other), ranks);
       CAPTURE(loose.output);
       CHECK(loose.code == 2);
-      CHECK_THAT(loose.output,
-                 Catch::Contains("scene.yaml:8:3") &&
-                     Catch::Contains(
-                         "are tied to each other, and nothing holds them together: "
-                         "they can change by a rotation about z, a translation in x, a translation in y") &&
-                     Catch::Contains("'lower'"));
+      CHECK_THAT(loose.output, Catch::Contains("scene.yaml:8:3") &&
+                                   Catch::Contains("are tied to each other, and nothing holds them together: "
+                                                   "they can change by a ") &&
+                                   Catch::Contains("a translation in x, a translation in y") &&
+                                   Catch::Contains("'lower'"));
       CHECK(Run(head + "fields:\n  lower: " + block(base) + other, "--quiet", ranks).done.code == 0);
     }
 }

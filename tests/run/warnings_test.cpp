@@ -334,7 +334,7 @@ TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of
     const auto from = done.output.find("warning: ");
     return from == std::string::npos ? "" : done.output.substr(from, done.output.find('\n', from) - from);
   };
-  CHECK(warning("") == "");
+  CHECK(warning("").empty());
   CHECK_THAT(
       warning("constraints.2={type: rigid, field: strut, body: lid}"),
       Catch::StartsWith("warning: all of field 'strut' is to follow 'lid', but for what is given on boundary "
@@ -366,7 +366,7 @@ TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of
   CHECK_THAT(
       warning("fields.cart.rotation=[30 + 0.1*t]"),
       Catch::StartsWith("warning: the `rotation` of 'cart' is 30 rad at the start, more than a whole turn"));
-  CHECK(warning("constraints.0.motion=6 + 0.5*t") == "");
+  CHECK(warning("constraints.0.motion=6 + 0.5*t").empty());
   CHECK(warning("fields.cart.initial.velocity=[3, 0]") ==
         "warning: field 'cart' is to start with the `velocity` 3, and its `translation`, `0.3*t`, gives 0.3: "
         "it goes "
@@ -380,5 +380,5 @@ TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of
         "field 'upper', which they keep to, 0.125 m: what lies between the tied nodes follows nothing, and "
         "the fields "
         "part there; exchange the two, in `boundaries` as well");
-  CHECK(warning("fields.lower.order=2") == "");
+  CHECK(warning("fields.lower.order=2").empty());
 }
