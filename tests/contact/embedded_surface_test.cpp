@@ -210,11 +210,28 @@ TEST_CASE("how deep bodies are in each other is a state, which goes back with a 
   CHECK(overlap(deep.stamp) == Approx(0.02));
   lift(deep, 0.029);
   CHECK(overlap(deep.stamp) == Approx(0.001));
-  // Bit by bit, each less than what is looked at in any case.
-  Stamp sinks(-0.5, 0.03);
-  lift(sinks, -0.011);
-  sinks.surface.begin_step();
-  CHECK_THROWS_WITH(lift(sinks, -0.022), Catch::Contains("has passed through"));
+}
+
+TEST_CASE(
+    "bodies that were deep in each other are looked at in the next step, and later only if they still are") {
+  Stamp stamp(-0.5, 0.041);
+  Passage passage(stamp.stamp_surface, stamp.step_surface, {0.05, 0.05});
+  const auto check = [&](double height, double least_gap) {
+    Block& block = stamp.stamp.blocks()[0];
+    for (std::size_t k = 2; k < block.now.value.size(); k += 3) block.now.value[k] = height;
+    passage.check(OppositePoints(*stamp.stamp_surface, stamp.step_surface.get(), stamp.step_surface->now(),
+                                 {0.05, 0.05}),
+                  least_gap);
+  };
+  // Onwards by less than what is looked at in any case, and out of sight.
+  const auto sink = [&](double least_gap) {
+    check(0, least_gap);
+    passage.begin_step(stamp.step_surface->now());
+    check(-0.011, 0);
+  };
+  passage.begin_step(stamp.step_surface->now());
+  CHECK_THROWS_WITH(sink(-0.041), Catch::Contains("has passed through"));
+  CHECK_NOTHROW(sink(-0.02));
 }
 
 TEST_CASE("interfaces between the same bodies remember an overlap each") {

@@ -334,7 +334,7 @@ TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of
     const auto from = done.output.find("warning: ");
     return from == std::string::npos ? "" : done.output.substr(from, done.output.find('\n', from) - from);
   };
-  CHECK(warning("") == "");
+  CHECK(warning("").empty());
   CHECK_THAT(
       warning("constraints.2={type: rigid, field: strut, body: lid}"),
       Catch::StartsWith("warning: all of field 'strut' is to follow 'lid', but for what is given on boundary "
@@ -366,12 +366,12 @@ TEST_CASE("what is hardly meant of rigid bodies and of what is tied is warned of
   CHECK_THAT(
       warning("fields.cart.rotation=[30 + 0.1*t]"),
       Catch::StartsWith("warning: the `rotation` of 'cart' is 30 rad at the start, more than a whole turn"));
-  CHECK(warning("constraints.0.motion=6 + 0.5*t") == "");
+  CHECK(warning("constraints.0.motion=6 + 0.5*t").empty());
   CHECK(warning("constraints.3={type: tied, fields: [lower, upper], boundaries: [y_max, y_min]}") ==
         "warning: the coarser side is tied: nodes on 'y_max' of field 'lower' are 0.25 m apart, those on "
         "'y_min' of "
         "field 'upper', which they keep to, 0.125 m: what lies between the tied nodes follows nothing, and "
         "the fields "
         "part there; exchange the two, in `boundaries` as well");
-  CHECK(warning("fields.lower.order=2") == "");
+  CHECK(warning("fields.lower.order=2").empty());
 }

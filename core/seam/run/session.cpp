@@ -60,29 +60,33 @@ void Session::require_held() {
   const double before = processor_seconds();
   problem().assembler().assemble(time_point(stepper_.start(), step, stepper_.theta()), true);
   assembly_seconds_ = processor_seconds() - before;
-  const std::string free = describe_free_modes(problem(), no_resistance);
-  if (!free.empty()) require_first_iteration(free);
+  const FreeModes free = describe_free_modes(problem(), no_resistance);
+  if (!free.text.empty()) require_first_iteration(free);
   problem().check_levels();
 }
 
-/// Loads that are not there yet at the start may hold what turns about a hinge, and what nothing acts on need
-/// not be held: a run begins with the loads at the end of its first step.
+/// Loads that are not there yet at the start may hold what turns about a hinge, and a body on which nothing
+/// acts need not be held: a run begins with the loads at the end of its first step.
 /// @param free what changes without resistance at the start @throws Error with that where a run ends there
-void Session::require_first_iteration(const std::string& free) {
+void Session::require_first_iteration(const FreeModes& free) {
   try {
     step_->begin(state_.time, stepper_.target(state_.time, state_.step), 0);
     const bool stands = !step_->iterate() && step_->report().converged;
     step_->rewind();
     problem().update_spaces(at_);
-    if (stands)
+    if (!stands) return;
+    if (free.of_bodies) {
       warnings_.warning(scene_.root.where("fields"),
                         "nothing acts in the first step on what is not held, so that it goes through: " +
-                            free.substr(0, free.find_last_not_of('\n') + 1));
+                            free.text.substr(0, free.text.find_last_not_of('\n') + 1));
+      return;
+    }
   } catch (const StepRefused&) {
-    throw Error(scene_.root.where("fields"), free);
+    // Where bodies would move too far; told below.
   } catch (const SingularMatrix&) {
-    throw Error(scene_.root.where("fields"), free);
+    // The same is told below, as it is at the start.
   }
+  throw Error(scene_.root.where("fields"), free.text);
 }
 
 void Session::find_conflicts() {

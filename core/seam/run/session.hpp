@@ -78,7 +78,7 @@ class Session {
 
  private:
   bool iterate(double until);
-  void require_first_iteration(const std::string& free);
+  void require_first_iteration(const FreeModes& free);
   [[nodiscard]] Results observe(const TimePoint& at);
   const Scene& scene_;
   Stepper stepper_;

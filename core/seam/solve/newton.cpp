@@ -286,7 +286,7 @@ void Newton::solve_linear(std::vector<double>& increment, SolveReport& report) {
   // A solver finds what has no resistance by luck: where rounding leaves some, it returns any such change.
   if (const long long pattern = assembler.matrix().pattern_version; pattern != held_) {
     // What is held at first loses only levels: where fluid is closed in.
-    const std::string free = describe_free_modes(problem_, no_resistance, held_ >= 0);
+    const std::string free = describe_free_modes(problem_, no_resistance, held_ >= 0).text;
     if (!free.empty()) throw NothingHolds("the matrix is singular\n" + free, {});
     held_ = pattern;
   }

@@ -123,10 +123,15 @@ class Newton {
 
 /// Part of its size that is left of a sum of some hundred terms that ought to be zero, and somewhat more.
 inline constexpr double no_resistance = 1e-13;
-/// Names fields of which a connected part can change without more than some resistance in the present matrix,
-/// as a part of what its equations are made of, one line each; "" if there is none. Collective.
-/// @param levels_only looks at constants of scalars alone, as of a pressure
-std::string describe_free_modes(Problem& problem, double resistance, bool levels_only = false);
+/// Fields of which a connected part can change without more than some resistance in the present matrix.
+struct FreeModes {
+  std::string text;  ///< names them, one line each; "" if there is none
+  bool of_bodies =
+      false;  ///< all of them are bodies without deformation, which stand as long as nothing acts
+};
+/// @param resistance as a part of what a field's equations are made of
+/// @param levels_only looks at constants of scalars alone, as of a pressure. Collective.
+FreeModes describe_free_modes(Problem& problem, double resistance, bool levels_only = false);
 
 /// Names the fields that can move without resistance in the present matrix, one line each; "" if none can.
 std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations);

@@ -247,7 +247,7 @@ std::string describe_parts(const FieldEntry& entry) {
 
 }  // namespace
 
-std::string describe_free_modes(Problem& problem, double resistance, bool levels_only) {
+FreeModes describe_free_modes(Problem& problem, double resistance, bool levels_only) {
   std::list<ConnectedNodes> labels;
   std::vector<Part> parts;
   for (const FieldEntry& entry : problem.fields())
@@ -296,12 +296,15 @@ std::string describe_free_modes(Problem& problem, double resistance, bool levels
         "resistance; prescribe something of one of them, or couple one to another field\n",
         fields, fmt::join(names, ", "));
   for (const auto& [of, names] : free) text += describe_parts(*of.first);
-  return text.empty() && !levels_only ? describe_idle(problem) : text;
+  if (text.empty()) return {levels_only ? "" : describe_idle(problem)};
+  return {text, free_together.empty() && std::ranges::all_of(free, [](const auto& of) {
+                  return of.first.first->physics->support() == Support::point;
+                })};
 }
 
 std::string describe_unsupported(Problem& problem, const std::vector<long long>& equations) {
   const Matrix& k = problem.assembler().matrix();
-  std::string text = describe_free_modes(problem, 1e-10);
+  std::string text = describe_free_modes(problem, 1e-10).text;
   if (!text.empty() || equations.empty()) return text;
   for (const EquationBlock& block : problem.assembler().equation_blocks())
     for (const EquationUnknown& unknown : block.unknowns)
