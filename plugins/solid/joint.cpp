@@ -147,7 +147,9 @@ class Joint final : public Constraint, public HoldsField, public Carried {
       const std::vector<Condition> wanted = conditions(present);
       require_way(present);
       require_side(present, wanted);
-      solve(ties, present, wanted, choose(conditions(present.at_start())));
+      const std::vector<int> followers = choose(conditions(present.at_start()));
+      require_hold(present, wanted, followers);
+      solve(ties, present, wanted, followers);
     });
   }
 
@@ -231,7 +233,7 @@ class Joint final : public Constraint, public HoldsField, public Carried {
     const auto [rate, second_rate] = motion_->rates(at_->c.data(), dimension_, time);
     if (std::isfinite(rate)) return {rate, std::isfinite(second_rate) ? second_rate : 0};
     throw Error(motion_where_, fmt::format("the `motion` of the joint that holds '{}' has no rate at t = "
-                                           "{:.6g}, `{}`: expected one that sets off with some velocity",
+                                           "{:.6g}, `{}`: expected one that sets off with a finite velocity",
                                            body_name_, time, motion_->text()));
   }
 
@@ -430,6 +432,25 @@ class Joint final : public Constraint, public HoldsField, public Carried {
       throw StepRefused(
           fmt::format("the joint at {} would hold '{}' the wrong way round: it has turned too far at once",
                       where_.text(), body_name_));
+    }
+  }
+
+  /// What follows was chosen at the start of the step: after a quarter of a turn it may say nothing of where
+  /// the body is along a slide.
+  /// @throws StepRefused where it has come to hardly anything beside what others would say
+  void require_hold(const Present& present, std::vector<Condition> rows,
+                    const std::vector<int>& chosen) const {
+    if (!present.in_step) return;
+    constexpr double hardly = 1e-4;
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      double most = 0;
+      for (int k = 0; k < other; ++k)
+        if (body_.free(k)) most = std::max(most, size(rows[r], k));
+      if (size(rows[r], chosen[r]) < hardly * most)
+        throw StepRefused(fmt::format(
+            "'{}' has turned so far in a step that the joint at {} no longer holds what it held at its start",
+            body_name_, where_.text()));
+      reduce(rows, r, chosen[r]);
     }
   }
 

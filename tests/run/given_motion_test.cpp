@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is given over time moves as its expression says, by every time scheme: values, rates and second rates.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,35 @@ output:
     CHECK(off(run, "l.z", [](double t) { return 10.0 / 12 * 3 * std::cos(t); }) < 1e-12);
     CHECK(off(run, "w.x", [](double) { return 0; }) < 1e-12);
   }
+}
+
+TEST_CASE(
+    "the angular momentum at the start is that of the points' velocities, where the body is turned to") {
+  const auto start = [](const std::string& rotation, const std::string& rate) {
+    const Run run(R"yaml(
+title: A body that turns
+dimension: 3
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0, 0], to: [2, 1, 1], cells: [2, 1, 1]}}}
+fields: {b: {type: rigid_body, mesh: box, density: 1, rotation: )yaml" +
+                      rotation + ", initial: {rotation_rate: " + rate + R"yaml(}}}
+output: {fields: false, probes: {l: {field: b, quantity: angular_momentum}}}
+)yaml" + steps("theta: 0.5", 0.1, 0.1),
+                  "--quiet");
+    CAPTURE(rotation, run.done.output);
+    REQUIRE(run.done.code == 0);
+    return std::array{run.series("l.x").front(), run.series("l.y").front(), run.series("l.z").front()};
+  };
+  // 2 (1 + 1)/12, 2 (4 + 1)/12, 2 (4 + 1)/12 kg m^2 about the body's axes.
+  const std::array free = start("[null, null, null]", "[0.8, -0.3, 1.1]");
+  CHECK(free[0] == Approx(0.8 / 3).epsilon(1e-12));
+  CHECK(free[1] == Approx(-0.3 * 5 / 6).epsilon(1e-12));
+  CHECK(free[2] == Approx(1.1 * 5 / 6).epsilon(1e-12));
+  const std::array turned = start("[null, 1.2, null]", "[0.8, 0, 1.1]");
+  const double c = std::cos(1.2), s = std::sin(1.2);
+  CHECK(turned[0] == Approx(c * 0.8 / 3 + s * 1.1 * 5 / 6).epsilon(1e-12));
+  CHECK(turned[1] == Approx(0).margin(1e-14));
+  CHECK(turned[2] == Approx(-s * 0.8 / 3 + c * 1.1 * 5 / 6).epsilon(1e-12));
 }
 
 TEST_CASE("a body that a joint drives has the rate of the motion, and what follows from it") {

@@ -136,10 +136,12 @@ TEST_CASE("a double pendulum swings right to second order") {
     for (const std::string scheme : {"theta: 0.5", "scheme: bdf2"}) {
       const auto coarse = double_pendulum(moves, scheme, 0.01), fine = double_pendulum(moves, scheme, 0.005);
       CAPTURE(moves, scheme, coarse[0], coarse[1], fine[0], fine[1]);
-      for (int k = 0; k < 2; ++k) {
-        if (scheme == "theta: 0.5") CHECK(std::abs(coarse[k]) < (moves ? 1e-2 : 1e-3));
+      for (int k = 0; k < 2 && scheme == "theta: 0.5"; ++k) {
+        CHECK(std::abs(coarse[k]) < (moves ? 1e-2 : 1e-3));
         CHECK(std::abs(fine[k]) < std::abs(coarse[k]) / 3);
       }
+      // Of one angle alone the error of bdf2 is small by chance.
+      CHECK(std::hypot(fine[0], fine[1]) < std::hypot(coarse[0], coarse[1]) / 3);
     }
 }
 
@@ -167,6 +169,25 @@ TEST_CASE("two free bars on a hinge keep momentum and energy") {
   kept("initial: 0.01, replay: " + folder.file("times.csv", jittered(20, 0.01)));
 }
 
+TEST_CASE(
+    "bodies on joints that nothing drives never gain energy, however long and whatever the scheme damps") {
+  // Inertia that is handed on as the rate of momentum would: within 60 s by a factor of 1e8 with theta 1.
+  for (const std::string scheme : {"theta: 1", "theta: 0.7", "scheme: bdf2"}) {
+    const Run run(two_bars("initial: {rotation_rate: [1], velocity: [0, 0.5]}",
+                           "initial: {rotation_rate: [-2], velocity: [0, 0.2]}",
+                           "  - {type: joint, kind: hinge, body: one, at: [0, 0]}\n",
+                           scheme + ", end: 60, step: {initial: 0.02}"),
+                  "--quiet");
+    CAPTURE(scheme, run.done.output);
+    REQUIRE(run.done.code == 0);
+    const std::vector<double> one = run.series("one.kinetic_energy"), two = run.series("two.kinetic_energy");
+    double most = 0;
+    for (std::size_t k = 1; k < one.size(); ++k) most = std::max(most, one[k] + two[k]);
+    CHECK(most < (one[0] + two[0]) * (1 + 1e-3));
+    CHECK(one.back() + two.back() < one[0] + two[0]);
+  }
+}
+
 TEST_CASE("a bead slides on a rod that is turned, as from the start, right to second order") {
   // r = r_0 cosh t: at rest along the rod, and going round with it. What it follows in goes from y to x and
   // back.
@@ -186,7 +207,7 @@ constraints:
                       motion + R"yaml(}
   - {type: joint, kind: slide, body: bead, to: rod, at: [0.35, 0], axis: [1, 0]}
 time: {)yaml" + scheme +
-                      ", end: 3, step: {initial: " + number(step) + R"yaml(}}
+                      ", end: 2, step: {initial: " + number(step) + R"yaml(}}
 output:
   fields: false
   probes: {d: {field: bead, quantity: translation}, v: {field: bead, quantity: velocity}, w: {field: bead, quantity: spin}}
@@ -196,7 +217,7 @@ output:
     REQUIRE(run.done.code == 0);
     CHECK(run.series("v.y").front() == Approx(0.35));
     CHECK(run.series("w").back() == Approx(1));
-    return std::hypot(run.series("d.x").back() + 0.35, run.series("d.y").back()) / (0.35 * std::cosh(3)) - 1;
+    return std::hypot(run.series("d.x").back() + 0.35, run.series("d.y").back()) / (0.35 * std::cosh(2)) - 1;
   };
   for (const std::string scheme : {"scheme: bdf2", "theta: 0.5"}) {
     const double coarse = off(scheme, "t", 0.02), fine = off(scheme, "t", 0.01);

@@ -33,7 +33,6 @@ class Terms final : public FieldSetup {
   };
   std::vector<Bound> all;
   Bound energy;
-  std::vector<double> initial_momentum = std::vector<double>(3, 0.0);
   [[nodiscard]] int dimension() const override { return dim_; }
   void add_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override {
     all.push_back({std::move(term), std::move(operands)});
@@ -51,9 +50,7 @@ class Terms final : public FieldSetup {
                     std::vector<std::string> operands) override {
     energy = {std::move(term), std::move(operands)};
   }
-  void set_initial(const std::string& unknown, int component, Expression value) override {
-    if (unknown == "angular_momentum") initial_momentum[component] = value(nullptr, 0, 0);
-  }
+  void set_initial(const std::string&, int, Expression) override {}
   void set_initial_rate(const std::string&, int, Expression) override {}
 
   [[nodiscard]] const std::string& field_name() const override { throw unexpected(); }
@@ -325,28 +322,6 @@ TEST_CASE("a rigid body's inertia is that of the points that it is made of") {
   State other = s;
   other.value["angular_momentum"][1] += 0.5;
   CHECK(residual(body, other).at("angular_momentum")[1] == Approx(0.5).epsilon(1e-5));
-}
-
-TEST_CASE("the momentum at the start is that of the points' velocities") {
-  const double angle = GENERATE(0.0, 1.2);
-  Parameters p = parameters_of({});
-  Parameters initial;
-  initial.set_dimension(3);
-  initial.set("rotation_rate", {std::vector<double>{0.8, -0.3, 1.1}, {}, {}, true});
-  p.set("initial", {std::vector<Parameters>{initial}, {}, {}, true});
-  p.set("rotation",
-        {std::vector{Expression(0.0), Expression(angle), Expression(0.0)}, {false, true, false}, {}, true});
-  Terms setup;
-  solid::RigidBody(p).build(setup);
-  Axis turn;
-  turn[1] = angle;
-  const auto tensor = solid::rotation_tensor(solid::turned(solid::no_rotation, turn));
-  Axis expected;
-  for (const auto& [mass, x] : points) {
-    const Triple spin = cross(x, cross({0.8, -0.3, 1.1}, x));
-    expected += mass * (tensor * Axis{{spin[0], spin[1], spin[2]}});
-  }
-  for (int d = 0; d < 3; ++d) CHECK(setup.initial_momentum[d] == Approx(expected[d]).epsilon(1e-12));
 }
 
 TEST_CASE("moments and dashpots on a turned body work on its turns, its spring on its rotation vector") {

@@ -56,6 +56,8 @@ class Assembler {
   /// Lets unknowns that others are tied to begin a step with the momentum that these hand on, at the present
   /// states and relations. Collective.
   void begin_momentum(const TimePoint& at);
+  /// The step has inertia as forces: the next one with momentum begins anew.
+  void forget_momentum();
   /// Numbers the active unknowns and builds the pattern. Collective.
   void rebuild();
   /// Sets residual, magnitude and (with_tangent) matrix at the present states of the fields. Collective.

@@ -13,8 +13,10 @@
 ///
 ///   d/dt (sum_i d_ik p_i) - sum_i (rate of d_ik) p_i    in the place of    sum_i d_ik m a_i,
 ///
-/// as in minimal coordinates, with d/dt by the time scheme, in axes that stay (Ties::set_axes). So linear
-/// momentum is kept and energy does not grow, and no second rate of what is tied is needed.
+/// as in minimal coordinates, with d/dt by the time scheme, in axes that stay (Ties::set_axes). So with theta
+/// = 1/2 momentum is kept and energy does not grow. With other schemes it would grow without bound; these
+/// take forces instead, d_ik m times the rate by the scheme of v, whose work has the sign that damps
+/// (decision 55).
 namespace seam {
 namespace {
 
@@ -181,6 +183,11 @@ void Assembler::begin_momentum(const TimePoint& at) {
   }
 }
 
+void Assembler::forget_momentum() {
+  for (const NumberedBlock& b : blocks_)
+    if (b.block->momentum_of != nullptr) std::ranges::fill(*b.block->momentum_of, 0.0);
+}
+
 /// Adds the rates of what has been handed on.
 void Assembler::balance_momentum(const TimePoint& at) {
   if (!has_turning_ties_ || at.step == 0 || !at.inertia_as_momentum) return;
@@ -199,7 +206,7 @@ void Assembler::balance_momentum(const TimePoint& at) {
         const double gained = local_momentum_[row] - momentum_at_start_[b][state];
         double& rate = local_momentum_rate_[row];
         rate = at.rate_factor * gained - keep * (*block.old.momentum_rate)[state];
-        (*block.now.momentum_rate)[state] = block.now.mean_rate != nullptr ? gained / at.step : rate;
+        (*block.now.momentum_rate)[state] = rate;
       }
   }
   in_axes_that_turn(local_momentum_rate_);

@@ -524,7 +524,10 @@ void Problem::begin_step(const TimePoint& at, double from) {
     TimePoint start = at;
     start.time = from;
     if (update_ties(start)) assembler_->rebuild();
-    assembler_->begin_momentum(start);
+    if (at.inertia_as_momentum)
+      assembler_->begin_momentum(start);
+    else
+      assembler_->forget_momentum();
   }
   for (FieldEntry& entry : fields_)
     for (Block& block : entry.field->blocks()) {
@@ -698,6 +701,7 @@ TimePoint time_point(double time, double step, double theta) {
   at.time = time;
   at.step = step;
   at.theta = theta;
+  at.inertia_as_momentum = theta == 0.5;
   if (step > 0) {
     at.rate_factor = 1 / (theta * step);
     at.second_rate_factor = at.rate_factor * at.rate_factor;
