@@ -261,10 +261,14 @@ TEST_CASE("a double pendulum swings at the order of its scheme, down to short st
                  fine = double_pendulum(moves, scheme, 0.0025),
                  finest = double_pendulum(moves, scheme, 0.001, 0.3);
       CAPTURE(moves, scheme, coarse, fine, finest);
-      for (int k = 0; k < 2; ++k) {
+      for (int k = 0; k < 2 && scheme == "theta: 0.5"; ++k) {
         CHECK(std::abs(coarse[k] / fine[k]) > 3.5);
         CHECK(std::abs(fine[k] / finest[k]) > 5.5);
       }
+      // Of one angle alone the error of bdf2 passes through 0 at longer steps.
+      const auto size = [](const auto& error) { return std::hypot(error[0], error[1]); };
+      CHECK(size(coarse) / size(fine) > 3.5);
+      CHECK(size(fine) / size(finest) > 5.5);
     }
     const auto coarse = double_pendulum(moves, "theta: 1", 0.001),
                fine = double_pendulum(moves, "theta: 1", 0.0005, 0.3);
