@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "scene_run.hpp"
 
@@ -209,38 +208,6 @@ output: {fields: false, probes: {d: {field: b, at: [1, 0.5], quantity: displacem
     CHECK(fine.first < 3e-3);
     CHECK(coarse.first / fine.first == Approx(4).margin(0.8));
     CHECK(coarse.second / fine.second == Approx(4).margin(0.8));
-  }
-}
-
-TEST_CASE(
-    "a lid that swings costs one iteration a step, as a linear problem does, and is the same on all ranks") {
-  const std::string scene = R"yaml(
-title: Stokes flow under a lid that swings
-dimension: 2
-plugins: [cutfem_fluid]
-meshes: {box: {grid: {from: [0, 0], to: [1, 1], cells: [6, 6]}}}
-fields:
-  water:
-    type: cutfem_fluid
-    mesh: box
-    density: 1
-    viscosity: 0.1
-    convection: false
-    boundary: [{on: y_max, velocity: ["sin(3*t)*x*(1 - x)", 0]}, {on: [x_min, x_max, y_min], velocity: [0, 0]}]
-output: {fields: false, probes: {v: {field: water, at: [0.4, 0.7], quantity: velocity}}}
-)yaml" + steps("theta: 0.5", 0.5, 0.05);
-  const Run run(scene, "--quiet");
-  CAPTURE(run.done.output);
-  REQUIRE(run.done.code == 0);
-  const auto summary = nlohmann::json::parse(run.folder.read("out/summary.json"));
-  for (const nlohmann::json& step : summary.at("newton")) CHECK(step["iterations"].size() <= 2);
-  for (const std::string ranks : {"2", "3"}) {
-    const Run shared(scene, "--quiet", "mpirun --oversubscribe -np " + ranks);
-    CAPTURE(ranks, shared.done.output);
-    REQUIRE(shared.done.code == 0);
-    const auto alone = run.series("v.x"), together = shared.series("v.x");
-    REQUIRE(together.size() == alone.size());
-    for (std::size_t k = 0; k < alone.size(); ++k) CHECK(together[k] == Approx(alone[k]).margin(1e-10));
   }
 }
 

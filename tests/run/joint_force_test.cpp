@@ -271,55 +271,6 @@ output:
   CHECK(coarse / fine > 3.5);
 }
 
-TEST_CASE("what a flow exerts on a disc is what its joint holds against") {
-  const auto held = [](const std::string& kind, const std::string& before) {
-    const Run run(R"yaml(
-title: A disc that is held in a flow
-dimension: 2
-plugins: [cutfem_fluid, solid, nitsche_fsci]
-meshes:
-  box: {grid: {from: [0, 0], to: [2, 1], cells: [12, 6]}}
-  disc: {grid: {from: [-1, -1], to: [1, 1], cells: [4, 4], map: ["0.7 + 0.15*x*sqrt(1 - y^2/2)", "0.55 + 0.15*y*sqrt(1 - x^2/2)"]}}
-fields:
-  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: x_min, velocity: ["4*y*(1 - y)", 0]}, {on: [y_min, y_max], velocity: [0, 0]}, {on: x_max, outflow: do_nothing}]}
-  disc: {type: rigid_body, mesh: disc, rotational_stiffness: 2}
-  skin: {type: rigid_surface, mesh: disc}
-constraints:
-  - {type: rigid, field: skin, body: disc}
-  - {type: joint, body: disc, at: [0.75, 0.5], )yaml" +
-                      kind + R"yaml(}
-interfaces: {gamma: {type: embedded, field: water, body: skin}}
-coupling: [{type: fsi, on: gamma}]
-time: {static: true, end: 1}
-solver: {newton: {tolerance: 1e-13}}
-output:
-  fields: false
-  probes:
-    force: {interface: gamma, quantity: force}
-    moment: {interface: gamma, quantity: moment, about: [0.75, 0.5]}
-    joint_force: {field: disc, quantity: joint_force}
-    joint_moment: {field: disc, quantity: joint_moment}
-    angle: {field: disc, quantity: rotation}
-)yaml",
-                  "--quiet", before);
-    CAPTURE(kind, run.done.output);
-    REQUIRE(run.done.code == 0);
-    const auto last = [&](const std::string& name) { return run.series(name).back(); };
-    CHECK(std::abs(last("joint_force.x")) > 0.1);
-    CHECK(last("joint_force.x") == Approx(-last("force.x")).epsilon(1e-10));
-    CHECK(last("joint_force.y") == Approx(-last("force.y")).epsilon(1e-10));
-    if (kind == "kind: weld")
-      CHECK(last("joint_moment") == Approx(-last("moment")).epsilon(1e-10));
-    else
-      CHECK(std::abs(last("joint_moment")) < 1e-10);
-    return last("joint_force.x");
-  };
-  const double one = held("kind: weld", "");
-  for (const std::string ranks : {"2", "3"})
-    CHECK(held("kind: weld", "mpirun --oversubscribe -np " + ranks) == Approx(one).epsilon(1e-9));
-  held("kind: hinge", "");
-}
-
 TEST_CASE("the force of a joint has a unit, and needs a joint") {
   const Folder folder;
   const auto output = [&](const std::string& text) {
