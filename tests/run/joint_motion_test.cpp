@@ -169,6 +169,35 @@ TEST_CASE("two free bars on a hinge keep momentum and energy") {
   kept("initial: 0.01, replay: " + folder.file("times.csv", jittered(20, 0.01)));
 }
 
+TEST_CASE("a hinge in space lets a body of any size swing") {
+  // Lengths by a factor, times by its root: the same angles.
+  const auto angle = [](const std::string& scheme, const std::string& size) {
+    const Run run(R"yaml(
+title: A block on a hinge about an oblique axis
+dimension: 3
+plugins: [solid]
+parameters: {L: 1}
+meshes: {block: {grid: {from: ["-1.7*L", "-0.4*L", "1.7*L"], to: ["-1.3*L", "0.38*L", "2.2*L"], cells: [1, 1, 1]}}}
+fields: {block: {type: rigid_body, mesh: block, density: 1000, body_force: [1, 0, -9.81]}}
+constraints: [{type: joint, kind: hinge, body: block, at: ["-0.95*L", "1.77*L", "-1.9*L"], axis: [-0.49, -0.6, -0.08]}]
+solver: {newton: {tolerance: 1e-12}}
+time: {)yaml" + scheme +
+                      R"yaml(, end: "0.3*sqrt(L)", step: {initial: "0.02*sqrt(L)"}}
+output: {fields: false, probes: {r: {field: block, quantity: rotation}}}
+)yaml",
+                  "--quiet --set parameters.L=" + size);
+    CAPTURE(scheme, size, run.done.output);
+    REQUIRE(run.done.code == 0);
+    return run.series("r.x").back();
+  };
+  for (const std::string scheme : {"theta: 0.5", "theta: 1", "scheme: bdf2"}) {
+    const double expected = angle(scheme, "1");
+    CHECK(std::abs(expected) > 0.01);
+    for (const std::string size : {"1e-3", "1e-5", "1e4"})
+      CHECK(angle(scheme, size) == Approx(expected).epsilon(1e-8));
+  }
+}
+
 TEST_CASE("a body that slides on one that is driven by quarters of a turn stays where it can be") {
   // It sets off at rest along the slide: r = r_0 cosh(angle), whatever unknown says where it is.
   for (const std::string turns : {"pi/2", "3*pi/2"}) {

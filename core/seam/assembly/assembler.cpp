@@ -223,7 +223,8 @@ std::vector<double> Assembler::rounding() const {
         return spacing * (std::abs(value) + added.at(&block)[c]);
       },
       [](double entry, double size) { return entry * size * entry * size; });
-  for (double& square : squares) square = std::sqrt(square);
+  // What is held or tied has no equation but its own identity, in which nothing is rounded.
+  for (int r = 0; r < matrix_.rows; ++r) squares[r] = relation_[r] == is_free ? std::sqrt(squares[r]) : 0;
   return squares;
 }
 

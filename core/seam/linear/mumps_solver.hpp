@@ -38,6 +38,7 @@ class MumpsSolver final : public LinearSolver {
   void factorise(const Matrix& a);
   void remember_unknowns(const Matrix& a);
   [[nodiscard]] bool worth_keeping() const;
+  void refine(const Matrix& a, const std::vector<double>& b, std::vector<double>& x);
   bool solve_with_kept(const Matrix& a, const std::vector<double>& b, std::vector<double>& x,
                        SolveReport& report);
   std::shared_ptr<Instance> instance_;
