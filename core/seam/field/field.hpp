@@ -49,7 +49,7 @@ struct Block {
   std::vector<double> prescribed_value;  ///< namely this, to be reached by the end of the step,
   /// with these rates; where they are no numbers, those of the time scheme.
   std::vector<double> prescribed_rate, prescribed_second_rate;
-  std::vector<int> time_order;           ///< per component
+  std::vector<int> time_order;  ///< per component
   /// Per unknown of a local node: a number that tells what hands momentum on to it; null where nothing does.
   std::vector<double>* momentum_of = nullptr;
   std::vector<int> components;  ///< of each unknown
