@@ -136,6 +136,22 @@ output:
     }
 }
 
+TEST_CASE("a joint whose motion sets off with an acceleration brings it at once") {
+  const Run run(R"yaml(
+title: A body that a slide drives
+dimension: 2
+plugins: [solid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [2, 1]}}}
+fields: {b: {type: rigid_body, mesh: box, density: 1}}
+constraints: [{type: joint, kind: slide, body: b, at: [0, 0], axis: [1, 0], motion: "3*t + 2*t^2"}]
+output: {fields: false, probes: {f: {field: b, quantity: joint_force}}}
+)yaml" + steps("theta: 0.5", 10, 0.1),
+                "--quiet");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  CHECK(off(run, "f.x", [](double) { return 2 * 4; }) < 1e-9);  // 2 kg by 4 m/s^2, from the first row on
+}
+
 TEST_CASE("boundaries of a solid move as given, and bring its mass to their acceleration") {
   // Both ends, so all of it: 2 kg.
   for (const std::string& scheme : schemes)
