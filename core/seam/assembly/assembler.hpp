@@ -43,8 +43,10 @@ class Assembler {
   void settle();
   /// Gives tied unknowns the rates that follow from those of what they are tied to. Collective.
   void settle_rates();
-  /// The same of second rates: at the start, later on the time scheme says them. Collective.
+  /// The same of second rates, at the start. Collective.
   void settle_second_rates();
+  /// The same where all that is followed is given; else the time scheme says second rates. Collective.
+  void settle_given_second_rates();
   /// The change of all unknowns, or of the highest rates of those that have some, that that of those which
   /// are not tied brings. Collective.
   /// @param increment [owned row]
@@ -158,6 +160,8 @@ class Assembler {
   void number_ties();
   void number_changes(const Ties::Resolved& from, Tie& tie) const;
   [[nodiscard]] double rate_of(const LocalUnknown& unknown) const;
+  [[nodiscard]] bool is_given(const Tie& tie) const;
+  void settle_second_rate(const Tie& tie);
   [[nodiscard]] bool has_rate(const LocalUnknown& unknown, int order) const;
   [[nodiscard]] LocalUnknown find(const UnknownPlace& place) const;
   [[nodiscard]] double value_of(const LocalUnknown& unknown) const;
@@ -224,6 +228,7 @@ class Assembler {
   std::vector<int> relation_;  ///< per local unknown (owned and ghost): one of these, or an index into ties_
   std::vector<char> node_has_relations_;
   std::vector<double> pending_;    ///< per local unknown with a relation: how far it has still to go
+  bool has_given_ties_ = false;    ///< those that `is_given`, on any rank
   bool has_turning_ties_ = false;  ///< on any rank: coefficients change with the state
   std::vector<Ties::Resolved> resolved_;
   std::vector<Tie> ties_;

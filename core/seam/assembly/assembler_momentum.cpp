@@ -38,7 +38,7 @@ void Assembler::assemble_momentum(Group& group, int index, const TimePoint& at, 
       if (*node < 0 || !node_has_relations_[*node]) continue;
       for (int i = 0; i < rows.components; ++i) {
         const int relation = relation_[graph_.node(*node).first + i];
-        if (relation < 0 || ties_[relation].changes.empty()) continue;
+        if (relation < 0 || ties_[relation].changes.empty() || is_given(ties_[relation])) continue;
         const std::size_t row = static_cast<std::size_t>(rows.offset) + i * rows.stride + a;
         hand_on_momentum(element, ties_[relation], &element.matrix()[row * element.size()],
                          with_tangent ? at.rate_factor : 0);

@@ -103,6 +103,8 @@ void Assembler::number_ties() {
   has_ties_ = communicator_.any(!ties_.empty());
   has_turning_ties_ =
       communicator_.any(std::ranges::any_of(ties_, [](const Tie& tie) { return !tie.changes.empty(); }));
+  has_given_ties_ =
+      communicator_.any(std::ranges::any_of(ties_, [&](const Tie& tie) { return is_given(tie); }));
   turn_of_.assign(relation_.size(), -1);
   if (!has_ties_) return;
   std::vector<std::vector<double>> scale;
@@ -225,17 +227,32 @@ void Assembler::settle_rates() {
   for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.rate, b.block->size);
 }
 
+/// Whether all that a tie follows is prescribed, or the clock.
+bool Assembler::is_given(const Tie& tie) const {
+  return std::ranges::all_of(tie.to,
+                             [&](const Tie::To& to) { return relation_[to.to.unknown] == is_prescribed; });
+}
+
+void Assembler::settle_second_rate(const Tie& tie) {
+  if (tie.tied.unknown >= matrix_.rows || !has_rate(tie.tied, 2)) return;
+  double rate = 0;
+  for (const Tie::To& to : tie.to)
+    rate += to.handed * blocks_[to.to.block].block->now.second_rate[to.to.state];
+  for (const Tie::Change& change : tie.changes)
+    rate += change.by_motion * rate_of(change.row) * rate_of(change.with);
+  blocks_[tie.tied.block].block->now.second_rate[tie.tied.state] = rate;
+}
+
 void Assembler::settle_second_rates() {
   if (!has_ties_) return;
-  for (const Tie& tie : ties_) {
-    if (tie.tied.unknown >= matrix_.rows || !has_rate(tie.tied, 2)) continue;
-    double rate = 0;
-    for (const Tie::To& to : tie.to)
-      rate += to.handed * blocks_[to.to.block].block->now.second_rate[to.to.state];
-    for (const Tie::Change& change : tie.changes)
-      rate += change.by_motion * rate_of(change.row) * rate_of(change.with);
-    blocks_[tie.tied.block].block->now.second_rate[tie.tied.state] = rate;
-  }
+  for (const Tie& tie : ties_) settle_second_rate(tie);
+  for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.second_rate, b.block->size);
+}
+
+void Assembler::settle_given_second_rates() {
+  if (!has_given_ties_) return;
+  for (const Tie& tie : ties_)
+    if (is_given(tie)) settle_second_rate(tie);
   for (NumberedBlock& b : blocks_) b.block->space->halo().update(b.block->now.second_rate, b.block->size);
 }
 

@@ -441,6 +441,7 @@ void Problem::settle_start(double time) {
     assembler_->settle();
     follow_relations(std::vector<double>(assembler_->ways_of_ties().size(), 0.0), time_point(time, 0, 1));
     assembler_->settle_rates();
+    assembler_->settle_given_second_rates();
   }
   together(communicator_, [&] {
     for (const FieldEntry& entry : fields_)
@@ -563,6 +564,7 @@ void Problem::update_second_rates(const TimePoint& at, bool relations) {
                   {block.prescribed_rate, block.prescribed_second_rate}, now.second_rate,
                   now.mean_second_rate);
     }
+  if (relations && !constraints_.empty() && assembler_) assembler_->settle_given_second_rates();
 }
 
 SpaceChange Problem::update_cuts(const TimePoint& at) {
