@@ -128,6 +128,7 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
   balance_momentum(at);
   graph_.collect_vector(local_residual_);
   graph_.collect_vector(local_magnitude_);
+  take_out_kept();
   if (with_tangent) {
     graph_.collect_matrix(matrix_);
     graph_.collect_vector(local_lift_);
@@ -366,6 +367,35 @@ void Assembler::add_increment(const std::vector<double>& increment, double facto
     b.block->space->halo().update(b.block->now.value, b.block->size);
   }
   if (has_ties_) settle_ties(remaining);
+}
+
+/// Calls back with [block][unknown of a local node] and the row of each unknown of this rank.
+template <class Use>
+void Assembler::for_each_own(const Use& use) const {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block& block = *blocks_[b].block;
+    for (int node = 0; node < block.space->owned_nodes(); ++node)
+      for (int c = 0; c < block.size && blocks_[b].node_index[node] >= 0; ++c)
+        use(b, static_cast<std::size_t>(node) * block.size + c,
+            graph_.node(blocks_[b].node_index[node]).first + c);
+  }
+}
+
+void Assembler::keep_residual() {
+  kept_residual_.clear();
+  for (const NumberedBlock& b : blocks_) kept_residual_.emplace_back(b.block->now.value.size(), 0.0);
+  for_each_own(
+      [&](std::size_t b, std::size_t state, int row) { kept_residual_[b][state] = local_residual_[row]; });
+}
+
+void Assembler::take_out_kept() {
+  if (left_out_ == 0) return;
+  for_each_own([&](std::size_t b, std::size_t state, int row) {
+    if (state >= kept_residual_[b].size()) return;  // it has come alive since
+    const double part = left_out_ * kept_residual_[b][state];
+    local_residual_[row] -= part;
+    local_magnitude_[row] += std::abs(part);
+  });
 }
 
 void Assembler::find_pending() {

@@ -39,6 +39,10 @@ class Assembler {
   /// Ties unknowns from now on, in the place of those tied before. Collective.
   /// @return true when what is tied to what has changed: then rebuild() has to follow
   bool tie(std::vector<Ties::Resolved> ties, const std::vector<Ties::Axes>& axes = {});
+  /// Keeps the residual of the last assembly, for leave_out().
+  void keep_residual();
+  /// From now on assemble() takes this part of the residual that was kept out of the present one.
+  void leave_out(double part) { left_out_ = part; }
   /// Gives tied unknowns the values that follow from what they are tied to. Collective.
   void settle();
   /// Gives tied unknowns the rates that follow from those of what they are tied to. Collective.
@@ -194,6 +198,9 @@ class Assembler {
   void hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent);
   void hold_related(bool with_tangent);
   void find_element_nodes(const Group& group, int element);
+  template <class Use>
+  void for_each_own(const Use& use) const;
+  void take_out_kept();
   void assemble_momentum(Group& group, int element, const TimePoint& at, bool with_tangent);
   [[nodiscard]] double turned_part(const Tie& tie, const Tie::To& to) const;
   void hand_on_momentum(const ElementEvaluator& element, const Tie& tie, const double* row,
@@ -240,6 +247,8 @@ class Assembler {
   std::vector<double> local_momentum_, local_momentum_rate_;
   std::vector<Ties::Axes> axes_;
   std::vector<int> turn_of_;  ///< per local unknown: about which of three axes that turn, or -1
+  double left_out_ = 0;       ///< part of `kept_residual_`
+  std::vector<std::vector<double>> kept_residual_;      ///< [block][unknown of a local node]
   std::vector<std::vector<double>> momentum_at_start_;  ///< of the step, [block][unknown of a local node]
   std::vector<double> local_lift_;                      ///< the tangent's action on pending prescribed values
   std::vector<double> residual_, right_side_, full_residual_, magnitude_;

@@ -15,9 +15,10 @@ void print_progress(const Progress& p) {
   if (!terminal && p.seconds - last < 10) return;
   last = p.seconds;
   const double left = p.part_done > 0 ? p.seconds * (1 / p.part_done - 1) : 0;
-  fmt::print(stderr, "{}step {:>6}  t = {:<12.6g} {:>2} iterations  {:5.1f} %  {:.0f} s left{}",
-             terminal ? "\r\033[K" : "", p.step, p.time, p.iterations, 100 * p.part_done, left,
-             terminal && !finished ? "" : "\n");
+  fmt::print(stderr, "{}step {:>6}  t = {:<12.6g} {:>2} iterations{}  {:5.1f} %  {:.0f} s left{}",
+             terminal ? "\r\033[K" : "", p.step, p.time, p.iterations,
+             p.shares > 0 ? fmt::format(", loads raised in {} shares", p.shares) : "", 100 * p.part_done,
+             left, terminal && !finished ? "" : "\n");
   std::fflush(stderr);
 }
 

@@ -7,6 +7,7 @@ struct Progress {
   long step;
   double time;
   int iterations;
+  int shares;        ///< in which what acts was raised, 0 where it acted at once
   double part_done;  ///< in [0, 1]
   double seconds;    ///< since the start
 };

@@ -116,37 +116,72 @@ Results Session::observe(const TimePoint& at) {
   return row;
 }
 
-/// Newton's method to the end of a step. @return whether it converged, and accurately enough
-bool Session::iterate(double until) {
-  const auto keep_report = [&](const std::string& reason) {
-    reports_.push_back(step_->report());
-    linear_seconds_ += reports_.back().linear_seconds;
-    if (reason.empty()) return;
-    reports_.back().converged = false;
-    reports_.back().reason = reason;
-  };
+/// Newton's method, on what `begin` begins. What is refused is reported as what does not converge.
+template <class Begin>
+NewtonReport Session::solve(const Begin& begin) {
+  std::string refused;
   try {
-    step_->begin(state_.time, until, last_step());
+    begin();
     while (step_->iterate()) continue;
-    keep_report(step_->report().reason);
-  } catch (const StepRefused& refused) {
-    keep_report(refused.what());
+  } catch (const StepRefused& refusal) {
+    refused = refusal.what();
   } catch (const SingularMatrix& singular) {
-    keep_report(singular.what());
+    refused = singular.what();
     // Where the run starts it is the scene that leaves something unheld. What has been held so far is lost on
     // a state that iterations went astray to, as where a body snaps through.
-    if (state_.step_number == 0 && reports_.back().iterations() == 0) {
+    if (state_.step_number == 0 && step_->report().iterations() == 0) {
       if (dynamic_cast<const NothingHolds*>(&singular) == nullptr) throw;
       const Diagnostic place{Diagnostic::Severity::error, scene_.root.where("fields"), singular.what()};
       throw NothingHolds(place.text(), singular.equations);
     }
   }
+  NewtonReport report = step_->report();
+  linear_seconds_ += report.linear_seconds;
+  if (refused.empty()) return report;
+  report.converged = false;
+  report.reason = refused;
+  return report;
+}
+
+/// To the end of a step. @return whether it converged, and accurately enough
+bool Session::iterate(double until) {
+  reports_.push_back(solve([&] { step_->begin(state_.time, until, last_step()); }));
   NewtonReport& report = reports_.back();
+  // No shorter step would have less to bear.
+  if (!report.converged && stepper_.is_static() && !stepper_.depends_on_time()) raise_load(until, report);
   if (report.converged && stepper_.too_inaccurate(step_->error(), until - state_.time)) {
     report.converged = false;
     report.reason = fmt::format("its error in time is {:.1e}", step_->error());
   }
   return report.converged;
+}
+
+/// Reaches a static state by shares of what acts, each as much more as Newton's method takes.
+/// @param report of the attempt with all of it at once; what is done here is added
+void Session::raise_load(double until, NewtonReport& report) {
+  constexpr double least = 1.0 / 1024;
+  constexpr int few_iterations = 6;
+  step_->rewind();
+  step_->begin(state_.time, until, last_step());
+  LoadShare load(problem(), step_->at());
+  double share = 0;
+  for (double more = 0.5; share < 1 && more >= least;) {
+    const StateStore::Snapshot reached = problem().state().snapshot(state_.time);
+    const double next = std::min(1.0, share + more);
+    const NewtonReport part = solve([&] { step_->begin_share(load, next); });
+    report.add(part);
+    if (part.converged) {
+      share = next;
+      if (part.iterations() <= few_iterations) more *= 2;
+    } else {
+      problem().state().restore(reached);
+      linear_->forget();
+      more /= 2;
+    }
+  }
+  report.converged = share == 1;
+  if (!report.converged)
+    report.reason += fmt::format("; nor raised little by little, beyond {:.3g} % of what acts", 100 * share);
 }
 
 bool Session::step(double until) {

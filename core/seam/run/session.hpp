@@ -77,7 +77,10 @@ class Session {
   [[nodiscard]] double observing_seconds() const { return observing_seconds_; }
 
  private:
+  template <class Begin>
+  NewtonReport solve(const Begin& begin);
   bool iterate(double until);
+  void raise_load(double until, NewtonReport& report);
   void require_first_iteration(const FreeModes& free);
   [[nodiscard]] Results observe(const TimePoint& at);
   const Scene& scene_;

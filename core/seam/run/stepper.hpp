@@ -16,6 +16,8 @@ class Stepper {
   explicit Stepper(const Scene& scene);
 
   [[nodiscard]] bool is_static() const { return static_; }
+  /// Whether anything in the scene does.
+  [[nodiscard]] bool depends_on_time() const { return depends_on_time_; }
   [[nodiscard]] bool adaptive() const { return adaptive_; }
   [[nodiscard]] double theta() const { return theta_; }
   /// True for BDF2; then theta is 1.

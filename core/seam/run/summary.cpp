@@ -41,6 +41,7 @@ nlohmann::json histories(const std::vector<NewtonReport>& reports) {
     all.push_back({{"converged", report.converged},
                    {"reason", report.reason},
                    {"frozen", report.frozen},
+                   {"shares", report.shares},
                    {"iterations", steps}});
   }
   return all;

@@ -61,6 +61,11 @@ bool TimeStep::iterate() {
   return false;
 }
 
+void TimeStep::begin_share(LoadShare& load, double share) {
+  load.set(share);
+  newton_.begin(at_);
+}
+
 void TimeStep::accept() { before_ = {}; }
 
 void TimeStep::rewind() {

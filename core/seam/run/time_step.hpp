@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "seam/run/stepper.hpp"
+#include "seam/solve/load_share.hpp"
 #include "seam/solve/newton.hpp"
 
 namespace seam {
@@ -31,6 +32,8 @@ class TimeStep {
   /// Relative error in time of a step that has converged; 0 where it is not estimated.
   [[nodiscard]] double error() const { return error_; }
   [[nodiscard]] const TimePoint& at() const { return at_; }
+  /// Takes a static step that has just been begun with a part of what acts, see LoadShare.
+  void begin_share(LoadShare& load, double share);
   /// The states at the end of the step are the present ones from now on.
   void accept();
   /// Everything is as it was before begin().

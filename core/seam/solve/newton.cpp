@@ -135,6 +135,14 @@ double Newton::way_since_freezing() const {
   return problem_.communicator().max(longest);
 }
 
+void NewtonReport::add(const NewtonReport& share) {
+  converged = share.converged;
+  frozen = share.frozen;
+  history.insert(history.end(), share.history.begin(), share.history.end());
+  linear_seconds += share.linear_seconds;
+  ++shares;
+}
+
 void Newton::begin(const TimePoint& step) {
   at_ = step;
   report_ = {};

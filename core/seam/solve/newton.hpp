@@ -43,6 +43,9 @@ struct NewtonReport {
   bool frozen = false;  ///< the cut was not updated in the last iterations, see Newton::solve
   std::vector<NewtonIteration> history;
   double linear_seconds = 0;
+  int shares = 0;  ///< in which what acts was raised, see LoadShare; 0: it acted at once
+  /// Adds an attempt at a share of what acts, as converged as that is.
+  void add(const NewtonReport& share);
   /// Linear systems solved on the way to the last state.
   [[nodiscard]] int iterations() const { return history.empty() ? 0 : static_cast<int>(history.size()) - 1; }
 };
