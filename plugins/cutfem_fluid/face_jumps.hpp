@@ -16,9 +16,15 @@ using p1 = Scalar<3>;
 inline const std::vector<Operand> both_sides{
     {0, "velocity"}, {1, "velocity"}, {0, "pressure"}, {1, "pressure"}};
 
+/// What h of (2.118) is at a face: the larger diameter of both cells, or how far the larger one reaches to
+/// either side of the face, its volume over the face's area: a tenth of that where the cell is ten times as
+/// long along the face.
+enum class JumpLength { diameter, across };
+
 /// gamma_u, gamma_p and gamma_div of (2.118).
 struct JumpConstants {
   double convective, pressure, divergence;
+  JumpLength length = JumpLength::diameter;
 };
 
 /// tau_u, tau_p and tau_div of (2.118) at a point of a face. The thesis takes the largest velocity component
@@ -29,7 +35,7 @@ struct JumpFactors {
 
   template <int dim>
   JumpFactors(const Flow& flow, const JumpConstants& constants, const Point<dim>& x, const Vec<dim, T>& v) {
-    const double h = x.cell_size;
+    const double h = constants.length == JumpLength::across ? x.trace_size : x.cell_size;
     const T phi = resistance<dim, T>(flow, h, x, v);
     velocity = T(0.0);
     if (flow.convection)

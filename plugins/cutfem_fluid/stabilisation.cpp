@@ -12,10 +12,17 @@ void declare_jump_constants(Schema& s) {
       .above(0);
   s.number("convective", "gamma_u: jumps of the velocity's derivatives").otherwise("0.05").at_least(0);
   s.number("divergence", "gamma_div: jumps of the divergence").otherwise("5e-5").at_least(0);
+  s.choice("length",
+           "The cells' size in these: their `diameter`, or how far they reach `across` the face, for "
+           "stretched cells; default `diameter`",
+           {"diameter", "across"})
+      .optional();
 }
 
 JumpConstants jump_constants(const Parameters& parameters) {
-  return {parameters.number("convective"), parameters.number("pressure"), parameters.number("divergence")};
+  const bool across = parameters.has("length") && parameters.text("length") == "across";
+  return {parameters.number("convective"), parameters.number("pressure"), parameters.number("divergence"),
+          across ? JumpLength::across : JumpLength::diameter};
 }
 
 /// Continuous interior penalty, thesis 2.2.4.1.

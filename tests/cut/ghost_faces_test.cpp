@@ -46,7 +46,7 @@ TEST_CASE("a ghost penalty holds all faces of cut cells and of covered ones that
   CHECK(count_faces(flat, Faces::wet_ghost, true) == 20);
 }
 
-TEST_CASE("the size of a face is the diameter of the larger cell", "[ranks]") {
+TEST_CASE("sizes of a face are the diameter of the larger cell, and how far that reaches", "[ranks]") {
   const Mesh mesh = grid(CellType::quadrilateral, {6, 1, 0}, [](const Point& x) {
     return Point{x[0] * x[0], x[1], 0};
   });
@@ -59,6 +59,7 @@ TEST_CASE("the size of a face is the diameter of the larger cell", "[ranks]") {
     faces.fill(f, element);
     const double x = element.sides[0].position[0], right = std::sqrt(x) + 1.0 / 6;
     CHECK(element.cell_size[0] == Approx(std::hypot(right * right - x, 1)));  // cells grow to the right
+    CHECK(element.trace_size[0] == Approx(right * right - x));
   }
   CHECK(mesh.communicator().sum(static_cast<long long>(seen)) == 5);
 }

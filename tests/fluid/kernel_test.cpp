@@ -153,10 +153,13 @@ TEST_CASE("tangents of all integrands match finite differences") {
 
 TEST_CASE("jump penalties have the parameters of (2.118) and (3.6)") {
   const double step = GENERATE(0.0, time_step);
+  const auto length = GENERATE(JumpLength::diameter, JumpLength::across);
+  JumpConstants constants = ::constants;
+  constants.length = length;
   const OnePoint at(2, step);
   // v, dv/dn on both sides, dp/dn on both sides, and the second derivatives of the same.
   const std::vector<double> in{1.2, -0.9, 0.3, 0.5, -0.2, 0.1, 2.0, -1.0, 0.7, 0.4, 0.2, -0.6, 1.5, 0.5};
-  const double h = cell_size, mu = flow.viscosity, rho = flow.density, square = 1.2 * 1.2 + 0.9 * 0.9;
+  const double h = length == JumpLength::across ? trace_size : cell_size, mu = flow.viscosity, rho = flow.density, square = 1.2 * 1.2 + 0.9 * 0.9;
   const double slow = 0.1 * mu / (rho * h), speed = square / std::sqrt(square + slow * slow);
   CHECK(speed == Approx(std::sqrt(square)).epsilon(1e-2));
   const double inertia = step > 0 ? rho / (theta * step) : 0;
@@ -177,10 +180,10 @@ TEST_CASE("jump penalties have the parameters of (2.118) and (3.6)") {
   CHECK(cip[5] == -cip[4]);
 
   const auto ghost = residual(*make_term(GhostPenalty{flow, constants, 0.1, 0.002, 0.05}), at, in);
-  const double more = 0.1 * h * mu + 0.002 * h * h * h * inertia;
+  const double cell = cell_size, more = 0.1 * cell * mu + 0.002 * cell * cell * cell * inertia;
   for (int i = 0; i < 2; ++i) CHECK(ghost[i] == Approx(expected[i] + more * jump[i]).epsilon(1e-13));
   CHECK(ghost[4] == Approx(tau_p * 3).epsilon(1e-13));
-  const double second = 0.05 * h * h;
+  const double second = 0.05 * cell * cell;
   CHECK(ghost[6] == Approx(second * (tau_u + more + tau_div) * (0.7 - 0.2)).epsilon(1e-13));
   CHECK(ghost[7] == Approx(second * (tau_u + more + tau_div) * (0.4 + 0.6)).epsilon(1e-13));
   CHECK(ghost[10] == Approx(second * tau_p * (1.5 - 0.5)).epsilon(1e-13));
