@@ -199,6 +199,16 @@ class FieldsForConstraint final : public ConstraintSetup {
   Problem& problem_;
 };
 
+/// Work on a domain, which may be a plugin's: one that fails on a rank of its own would leave the others
+/// waiting.
+void attempt(const Communicator& communicator, const IntegrationDomain& domain,
+             const std::function<void()>& work) {
+  together(communicator, [&] {
+    call_plugin(
+        {}, [&] { return "the integration over " + domain.description() + plugin_of(domain); }, work);
+  });
+}
+
 }  // namespace
 
 FieldEntry::FieldEntry() = default;
@@ -255,7 +265,8 @@ std::vector<const Constraint*> Problem::constraints() const {
 
 void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
   entry.field->occupy(active, cut);
-  for (auto& [domain, terms] : domains_) domain->update(*entry.field);
+  for (auto& [domain, terms] : domains_)
+    attempt(communicator_, *domain, [&, &of = *domain] { of.update(*entry.field); });
   place_levels(fields_, joins_, entry);
 }
 
@@ -281,7 +292,8 @@ void Problem::finish(double time, bool shape_derivatives) {
   carry_rates();
   update_cuts(time_point(time, 0, 1));
   for (auto& [name, parts] : interfaces_)
-    for (InterfacePart& part : parts) part.domain->follow(time);
+    for (InterfacePart& part : parts)
+      attempt(communicator_, *part.domain, [&] { part.domain->follow(time); });
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   using Role = ElementEvaluator::Role;
   for (const auto& [domain, terms] : domains_)
@@ -645,12 +657,14 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (auto& [name, parts] : interfaces_)
     for (InterfacePart& part : parts) {
       bool moved = false;
-      together(communicator_, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      attempt(communicator_, *part.domain, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
       if (communicator_.any(moved)) change = std::max(change, SpaceChange::geometry);
     }
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
-    if (update(at)) change = SpaceChange::unknowns;
+    together(communicator_, [&] {
+      if (update(at)) change = SpaceChange::unknowns;
+    });
   if (update_ties(at)) change = SpaceChange::unknowns;
   if (change != SpaceChange::none) assembler_->rebuild();
   if (!constraints_.empty()) settle_rates(at);
