@@ -153,6 +153,39 @@ output:
     }
 }
 
+TEST_CASE("a body without mass has a velocity and a spin where it is given or driven, and else none") {
+  const auto run = [](const std::string& dimension, const std::string& box, const std::string& body,
+                      const std::string& joint) {
+    return Run("title: A body without mass\ndimension: " + dimension +
+                   "\nplugins: [solid]\nmeshes: {box: {grid: " + box +
+                   "}}\nfields: {b: {type: rigid_body, mesh: box" + body + "}}\n" + joint +
+                   "output:\n  fields: false\n  probes: {v: {field: b, quantity: velocity}, w: {field: b, "
+                   "quantity: spin}}\n" +
+                   steps("theta: 0.5", 2, 0.2),
+               "--quiet");
+  };
+  const std::string plane = "{from: [0, -0.5], to: [2, 0.5], cells: [2, 1]}",
+                    space = "{from: [0, -0.5, -0.5], to: [2, 0.5, 0.5], cells: [2, 1, 1]}",
+                    hinge = "constraints: [{type: joint, kind: hinge, body: b, motion: 1 + t^2, at: ";
+  const Run given = run("2", plane, ", translation: [\"sin(t)\", 0], rotation: [t^2]", "");
+  CAPTURE(given.done.output);
+  REQUIRE(given.done.code == 0);
+  CHECK(off(given, "v.x", [](double t) { return std::cos(t); }) < 1e-12);
+  CHECK(off(given, "w", [](double t) { return 2 * t; }) < 1e-12);
+  const auto check_driven = [](const Run& driven, const std::string& spin) {
+    CAPTURE(driven.done.output);
+    REQUIRE(driven.done.code == 0);
+    CHECK(off(driven, "v.x", [](double t) { return -2 * t * std::sin(1 + t * t); }) < 1e-11);
+    CHECK(off(driven, "v.y", [](double t) { return 2 * t * std::cos(1 + t * t); }) < 1e-11);
+    CHECK(off(driven, spin, [](double t) { return 2 * t; }) < 1e-11);
+  };
+  check_driven(run("2", plane, "", hinge + "[0, 0]}]\n"), "w");
+  check_driven(run("3", space, "", hinge + "[0, 0, 0], axis: [0, 0, 1]}]\n"), "w.z");
+  const Run held = run("2", plane, ", stiffness: [1, 1], rotation: [0]", "");
+  CHECK(held.done.code == 2);
+  CHECK_THAT(held.done.output, Catch::Matchers::Contains("field 'b' has no quantity 'velocity'"));
+}
+
 TEST_CASE("a joint whose motion sets off with an acceleration brings it at once") {
   const Run run(R"yaml(
 title: A body that a slide drives
