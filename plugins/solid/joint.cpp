@@ -610,7 +610,9 @@ void declare_joint(Registry& registry) {
             "Boundary of a body that deforms: a hinge about its middle, which moves with the mean of "
             "its points")
       .optional();
-  schema.vector("at", "A point of both, in the reference position").unit("m").optional();
+  schema.vector("at", "A point of both, in the reference position; needed unless `on` is given")
+      .unit("m")
+      .optional();
   schema.vector("axis", "Of a hinge in space, or along which to slide, in the reference position").optional();
   schema.expression("motion", "Given angle, rad, or way, m; default free").optional();
   registry.add<Constraint>("constraint", "joint", schema,

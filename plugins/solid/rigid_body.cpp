@@ -363,13 +363,12 @@ void RigidBody::build(FieldSetup& setup) const {
   const auto& second = moments.second;
   const double length = std::sqrt((second[0][0] + second[1][1] + second[2][2]) / moments.volume);
   setup.publish("radius_of_gyration", length);
-  if (time_order() > 0) {
-    setup.add_output("velocity", make_quantity(RigidVelocity{}), {"translation"});
-    if (dim == 2)
-      setup.add_output("spin", make_quantity(PlaneSpin{}), {"rotation"});
-    else
-      setup.add_output("spin", make_quantity(SpaceSpin{}), {"rotation", "orientation"});
-  }
+  // Without density and dashpots a body has these where it is given or tied to what moves.
+  setup.add_output("velocity", make_quantity(RigidVelocity{}), {"translation"});
+  if (dim == 2)
+    setup.add_output("spin", make_quantity(PlaneSpin{}), {"rotation"});
+  else
+    setup.add_output("spin", make_quantity(SpaceSpin{}), {"rotation", "orientation"});
   const double density = parameters_.number("density");
   Mat<3, 3, double> inertia;
   if (density > 0) {

@@ -131,15 +131,22 @@ TEST_CASE("the kit finds relations between unknowns that are told wrongly, or re
                 " --ranks 1");
   };
   const std::string values = "ties of unknowns: values change as the coefficients say",
-                    handed = "ties of unknowns: what is handed on changes as said";
+                    handed = "ties of unknowns: what is handed on changes as said",
+                    rates = "ties of unknowns: values change as their rates say",
+                    motions = "ties of unknowns: what is handed on changes as motions say";
   const Result right = with_constraint("right");
   INFO(right.output);
   for (const std::string& check :
-       {values, handed, std::string("tangent: whole system"), std::string("rewind")})
+       {values, handed, rates, motions, std::string("tangent: whole system"), std::string("rewind")})
     CHECK_THAT(right.output, Contains("ok    " + check));
   CHECK_THAT(with_constraint("slope").output, Contains("FAIL  " + values));
-  CHECK_THAT(with_constraint("rate").output,
-             Contains("FAIL  ties of unknowns: values change as their rates say"));
+  CHECK_THAT(with_constraint("rate").output, Contains("FAIL  " + rates));
+  const Result clock = with_constraint("clock");
+  CHECK_THAT(clock.output,
+             Contains("FAIL  " + rates) && Contains("ok    " + values) && Contains("1.0 times"));
+  const Result motion = with_constraint("motion");
+  CHECK_THAT(motion.output,
+             Contains("FAIL  " + motions) && Contains("ok    " + rates) && Contains("ok    " + handed));
   const Result change = with_constraint("change");
   CHECK_THAT(change.output, Contains("FAIL  " + handed) && Contains("FAIL  tangent: whole system"));
   CHECK_THAT(with_constraint("remembers").output, Contains("FAIL  rewind"));

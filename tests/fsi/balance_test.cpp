@@ -163,7 +163,7 @@ TEST_CASE("a stress law carries exact first and second derivatives") {
       stress_law.evaluate(2, g, minus, first_minus, nullptr);
       g[k] += h;
       for (int i = 0; i < 4; ++i)
-        CHECK(first[i * 4 + k] == Approx((plus[i] - minus[i]) / (2 * h)).margin(1e-6));
+        CHECK(first[i * 4 + k] == Approx((plus[i] - minus[i]) / (2 * h)).epsilon(0).margin(1e-6));
       for (int i = 0; i < 16; ++i)
         CHECK(second[i * 4 + k] == Approx((first_plus[i] - first_minus[i]) / (2 * h)).margin(2e-5));
     }

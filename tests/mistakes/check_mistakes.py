@@ -5,8 +5,8 @@
   tests/mistakes/check_mistakes.py build/bin/seam          lists what is not found
   tests/mistakes/check_mistakes.py build/bin/seam --all    lists all, with their messages
 
-Found is what an error or a warning tells with file and line, naming what is wrong. Exit code 1 when one is not found by `seam check`:
-what is found stays found.
+Found is what an error or a warning tells with file and line, naming what is wrong. Exit code 1 when one is not found by `seam check`,
+or, of the kind "by the run", which only a run can know, is not refused by that, naming it: what is found stays found.
 """
 
 import argparse
@@ -53,7 +53,7 @@ def main():
     parser.add_argument("--all", action="store_true")
     options = parser.parse_args()
     seam = str(pathlib.Path(options.seam).resolve())
-    count, by_kind = collections.Counter(), collections.Counter()
+    count, by_kind, missed = collections.Counter(), collections.Counter(), 0
     for number, (kind, key, places) in enumerate(MISTAKES):
         for name, (right, wrong) in places.items():
             text = (HERE / f"{name}.yaml").read_text()
@@ -62,7 +62,9 @@ def main():
                 where, output = judge(seam, text.replace(right, wrong, 1), key, pathlib.Path(folder))
             count[where] += 1
             by_kind[kind, where] += 1
-            if options.all or where != "check":
+            as_expected = where == "check" if kind != "by the run" else where == "run" and names(output, key, False)
+            missed += not as_expected
+            if options.all or not as_expected:
                 print(f"{where:6} {kind} {number} in {name}: '{right.strip()}' -> '{wrong.strip()}' ({key})")
                 print("       " + "\n       ".join(output.strip().splitlines()[:4]))
     total = sum(count.values())
@@ -70,7 +72,7 @@ def main():
         print(f"{kind:10}", ", ".join(f"{by_kind[kind, where]} by {where}" for where in ("check", "run", "never")))
     print(f"{total} mistakes: {count['check']} found by check ({100 * count['check'] / total:.1f} %), "
           f"{count['run']} by run, {count['never']} never")
-    return 0 if count["check"] == total else 1
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ Kinds and their shares are those of a review of 84 mistakes: text (keys, types, 
 results 10 %, physics that is legal but hardly meant 15 %, files, meshes, restart 10 %. Of rigid bodies and constraints those of a later review.
 """
 
-BEAM, CYLINDERS, LEAF, BODIES = "beam", "cylinders", "leaf", "bodies"
+BEAM, CYLINDERS, LEAF, BODIES, BLOCKS = "beam", "cylinders", "leaf", "bodies", "blocks"
 
 MISTAKES = [
     # Keys, types, names, ranges.
@@ -115,6 +115,18 @@ MISTAKES = [
     ("bodies", "skin", {BODIES: ("  - {type: rigid, field: skin, body: arm}\n", "")}),
     ("bodies", "nothing holds them together", {BODIES: ("    boundary: [{on: y_min, displacement: [0, 0]}]\n", "")}),
     ("bodies", "second joint", {BODIES: ("  - {type: rigid, field: skin", "  - {type: joint, kind: hinge, body: arm, at: [1, 0]}\n  - {type: rigid, field: skin")}),
+    ("bodies", "cannot form a loop", {BODIES: ("at: [0, 0], motion: 0.5*t}\n", "at: [0, 0], to: lid}\n  - {type: joint, kind: hinge, body: lid, to: arm, at: [1, 0]}\n")}),
+    ("bodies", "field 'arm' is to start with 1 as a rate", {BODIES: ("mesh: arm, density: 1, body_force: [0, -9.81]", "mesh: arm, density: 1, body_force: [0, -9.81], initial: {velocity: [1, 0]}")}),
+    ("bodies", "no `density`", {BODIES: ("mesh: lid, density: 1, body_force: [0, -9.81]", "mesh: lid, initial: {velocity: [0, 0.1]}")}),
+    ("bodies", "damping", {BODIES: ("stiffness: [1, 0]", "stiffness: [1, 0], damping: [-1, 0]")}),
+    ("bodies", "nothing pushes 'low_skin' back", {BLOCKS: ("  - {type: contact, on: up, surface_stiffness: 100}\n", "")}),
+    ("bodies", "expected the same in both", {BLOCKS: ("on: up, surface_stiffness: 100", "on: up, surface_stiffness: 1000")}),
+    ("bodies", "boundary 'x_max' of field 'water' is periodic", {CYLINDERS: ("coupling:\n", "constraints: [{type: periodic, field: water, boundaries: [x_min, x_max]}]\ncoupling:\n")}),
+    ("bodies", "boundary 'y_max' of field 'beam' is periodic", {BEAM: ("time:", "constraints: [{type: periodic, field: beam, boundaries: [y_min, y_max]}]\ntime:")}),
+    ("bodies", "reaches over", {CYLINDERS: ("interfaces:\n  front: {type: cut, field: water, body: {type: circle, centre: [0.3,", "constraints: [{type: periodic, field: water, boundaries: [x_min, x_max]}]\ninterfaces:\n  front: {type: cut, field: water, body: {type: circle, centre: [1.6,")}),
+    # What only a run can know.
+    ("by the run", "reaches over", {CYLINDERS: ("interfaces:\n  front: {type: cut, field: water, body: {type: circle, centre: [0.3, 0.2], radius: 0.05}}", 'constraints: [{type: periodic, field: water, boundaries: [x_min, x_max]}]\ninterfaces:\n  front: {type: cut, field: water, body: {type: circle, centre: [1.58, 0.2], radius: 0.05}, motion: {translation: ["1.5*t", 0]}}')}),
+    ("by the run", "nan at (", {BODIES: ("motion: 0.5*t", "motion: 0.5*t + 0*sqrt(0.015 - t)")}),
     # Files, meshes, points, restart.
     ("file", "missing.msh", {BEAM: ('grid: {from: [0, 0], to: [2, 0.2], cells: [10*n, n]}\n    regions: {near: {where: "x < 1"}, far: {where: "x >= 1"}}', "file: missing.msh"), CYLINDERS: ("{grid: {from: [0, 0], to: [1.64, H], cells: [4*n, n]}}", "{file: missing.msh}")}),
     ("file", "outside", {BEAM: ("at: [2, 0.1]", "at: [2.1, 0.1]"), CYLINDERS: ("at: [0.5, 0.2]", "at: [0.5, 2]"), LEAF: ("at: [0.93, 0.6]", "at: [0.93, 0.7]")}),

@@ -313,12 +313,12 @@ output:
     const double t = time[k], angle = fast * (2 * t + t * t), rate = fast * (2 + 2 * t), h = std::sqrt(0.5);
     CAPTURE(t);
     // Turned about (1, 1, 0) from (1, -1, 0): towards (0, 0, -1).
-    CHECK(run.series("c.z")[k] == Approx(-0.5 * std::sin(angle)).margin(1e-9));
-    CHECK(run.series("c.x")[k] == Approx(0.5 * h * (std::cos(angle) - 1)).margin(1e-9));
-    CHECK(run.series("v.z")[k] == Approx(-0.5 * rate * std::cos(angle)).margin(1e-7 * fast));
-    CHECK(run.series("w.x")[k] == Approx(h * rate).margin(1e-7 * fast));
-    CHECK(run.series("w.y")[k] == Approx(h * rate).margin(1e-7 * fast));
-    CHECK(run.series("r.x")[k] == Approx(h * angle).margin(1e-9));
+    CHECK(run.series("c.z")[k] == Approx(-0.5 * std::sin(angle)).epsilon(0).margin(1e-12 * fast));
+    CHECK(run.series("c.x")[k] == Approx(0.5 * h * (std::cos(angle) - 1)).epsilon(0).margin(1e-12 * fast));
+    CHECK(run.series("v.z")[k] == Approx(-0.5 * rate * std::cos(angle)).epsilon(0).margin(1e-12 * fast));
+    CHECK(run.series("w.x")[k] == Approx(h * rate).epsilon(0).margin(1e-12 * fast));
+    CHECK(run.series("w.y")[k] == Approx(h * rate).epsilon(0).margin(1e-12 * fast));
+    CHECK(run.series("r.x")[k] == Approx(h * angle).epsilon(0).margin(1e-12 * fast));
   }
 }
 
@@ -343,8 +343,8 @@ output:
   for (std::size_t k = 0; k < time.size(); ++k) {
     const double angle = time[k] < 0.55 ? 0 : 100 * (time[k] - 0.5);
     CAPTURE(time[k]);
-    CHECK(run.series("r.z")[k] == Approx(angle).margin(1e-9));
-    CHECK(run.series("c.x")[k] == Approx(0.9 * (std::cos(angle) - 1)).margin(1e-9));
+    CHECK(run.series("r.z")[k] == Approx(angle).epsilon(0).margin(1e-12));
+    CHECK(run.series("c.x")[k] == Approx(0.9 * (std::cos(angle) - 1)).epsilon(0).margin(1e-12));
   }
 }
 
@@ -365,10 +365,10 @@ meshes:
     for (std::size_t k = 0; k < time.size(); ++k) {
       const double a = 3 + time[k], b = a - 2.5;
       CAPTURE(time[k]);
-      CHECK(run.series("c.x")[k] == Approx(std::cos(a) + 0.5 * std::cos(b) - 1.5).margin(1e-10));
-      CHECK(run.series("c.y")[k] == Approx(std::sin(a) + 0.5 * std::sin(b)).margin(1e-10));
-      CHECK(run.series("tip.x")[k] == Approx(std::cos(a) + std::cos(b) - 2).margin(1e-10));
-      CHECK(run.series("v.y")[k] == Approx(std::cos(a) + 0.5 * std::cos(b)).margin(1e-7));
+      CHECK(run.series("c.x")[k] == Approx(std::cos(a) + 0.5 * std::cos(b) - 1.5).epsilon(0).margin(1e-13));
+      CHECK(run.series("c.y")[k] == Approx(std::sin(a) + 0.5 * std::sin(b)).epsilon(0).margin(1e-13));
+      CHECK(run.series("tip.x")[k] == Approx(std::cos(a) + std::cos(b) - 2).epsilon(0).margin(1e-13));
+      CHECK(run.series("v.y")[k] == Approx(std::cos(a) + 0.5 * std::cos(b)).epsilon(0).margin(1e-13));
     }
   };
   const std::string times = "time: {theta: 0.5, end: 1, step: {initial: 0.25}}\noutput:\n  fields: false\n";

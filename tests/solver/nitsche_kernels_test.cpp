@@ -201,7 +201,7 @@ TEST_CASE("bodies press and do not pull; the adjoint varies their stress by what
     REQUIRE((gap < 0) == (trial < 0));
     // du, grad du.
     const auto r = residual(Contact<1, false, true>{{pull}, 1, 1, xi}, x, in);
-    for (int i = 0; i < 2; ++i) CHECK(r[i] == Approx(-pressed * x.normal[i]).margin(1e-14));
+    for (int i = 0; i < 2; ++i) CHECK(r[i] == Approx(-pressed * x.normal[i]).epsilon(0).margin(1e-14));
     for (int k = 0; k < 4; ++k) {
       constexpr double h = 1e-6;
       std::vector<double> ahead = in, behind = in;
@@ -259,7 +259,7 @@ TEST_CASE("in a fluid the surface carries the lesser of what fluid and bodies ex
     const auto closed =
         residual(ClosedContact{{fluid, bodies}, std::numeric_limits<double>::infinity()}, x, closed_in);
     for (int i = 0; i < 2; ++i) {
-      CHECK(near[i] == Approx((std::min(s, f) - f) * n[i]).margin(1e-13));
+      CHECK(near[i] == Approx((std::min(s, f) - f) * n[i]).epsilon(0).margin(1e-13));
       CHECK(closed[i] == Approx(std::min(s, f) * n[i]).epsilon(1e-12));
     }
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "seam/assembly/together.hpp"
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/part_sets.hpp"
 #include "seam/state/state_store.hpp"
@@ -54,7 +55,9 @@ bool FieldCut::states_match() const {
 
 bool FieldCut::update(double time) {
   std::vector<Surface> surfaces;
-  for (const Body& body : bodies_) surfaces.push_back(body(time));
+  together(field_->mesh().communicator(), [&] {
+    for (const Body& body : bodies_) surfaces.push_back(body(time));
+  });
   if (time != time_) decided_ = false;
   time_ = time;
   const bool decides = !decided_;

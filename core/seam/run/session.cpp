@@ -61,7 +61,13 @@ void Session::require_held() {
   problem().assembler().assemble(time_point(stepper_.start(), step, stepper_.theta()), true);
   assembly_seconds_ = processor_seconds() - before;
   const FreeModes free = describe_free_modes(problem(), no_resistance);
-  if (!free.text.empty()) require_first_iteration(free);
+  // A body that is balanced shows in how far it would turn. What has no natural size is not looked at so, and
+  // an iteration costs more than all the rest of a check.
+  const bool may_balance =
+      stepper_.is_static() && std::ranges::any_of(problem().fields(), [](const FieldEntry& entry) {
+        return std::ranges::any_of(entry.field->unknowns(), [](const Unknown& u) { return u.scale > 0; });
+      });
+  if (!free.text.empty() || may_balance) require_first_iteration(free);
   problem().check_levels();
 }
 
@@ -74,7 +80,7 @@ void Session::require_first_iteration(const FreeModes& free) {
     const bool stands = !step_->iterate() && step_->report().converged;
     step_->rewind();
     problem().update_spaces(at_);
-    if (!stands) return;
+    if (!stands || free.text.empty()) return;
     if (free.of_bodies) {
       warnings_.warning(scene_.root.where("fields"),
                         "nothing acts in the first step on what is not held, so that it goes through: " +
@@ -83,7 +89,13 @@ void Session::require_first_iteration(const FreeModes& free) {
     }
   } catch (const StepRefused&) {
     // Where bodies would move too far; told below.
+    if (free.text.empty()) {
+      step_->rewind();
+      problem().update_spaces(at_);
+      return;  // a run tries shorter steps
+    }
   } catch (const SingularMatrix&) {
+    if (free.text.empty()) throw;
     // The same is told below, as it is at the start.
   }
   throw Error(scene_.root.where("fields"), free.text);

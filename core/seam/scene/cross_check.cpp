@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <map>
 
 #include "seam/plugin/plugin_host.hpp"
 
@@ -163,6 +164,26 @@ void check_checks(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
+/// Each joint lets a body follow another one: there has to be a first.
+void check_joints(const Scene& scene, Diagnostics& diagnostics) {
+  if (!scene.root.has("constraints")) return;
+  std::map<std::string, std::string> holder;
+  for (const Parameters& joint : scene.root.list("constraints")) {
+    if (joint.type() != "joint" || !joint.has("body") || !joint.has("to") || joint.has("on")) continue;
+    const std::string body = joint.text("body");
+    if (!holder.emplace(body, joint.text("to")).second) continue;  // a second joint, told elsewhere
+    std::string loop = fmt::format("'{}' is held to", body), at = joint.text("to");
+    while (at != body && holder.contains(at)) {
+      loop += fmt::format(" '{}', which is held to", at);
+      at = holder.at(at);
+    }
+    if (at == body)
+      diagnostics.error(
+          joint.where(),
+          fmt::format("{} '{}': joints cannot form a loop; close it by a `spring` on a `link`", loop, body));
+  }
+}
+
 void check_probes(const Scene& scene, Diagnostics& diagnostics) {
   if (!scene.root.has("output") || !scene.root.object("output").has("probes")) return;
   for (const auto& [name, probe] : scene.root.object("output").map("probes")) {
@@ -198,6 +219,7 @@ void cross_check(const Scene& scene, const Registry& registry, const std::vector
   const bool complete = !diagnostics.has_errors();
   check_couplings(scene, diagnostics);
   check_checks(scene, diagnostics);
+  check_joints(scene, diagnostics);
   check_probes(scene, diagnostics);
   check_time(scene, diagnostics);
   if (!complete) return;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -116,6 +117,69 @@ void carry_rates_of(const BoundTerm& bound, const std::vector<Field*>& fields) {
   }
 }
 
+/// Whether a quantity can be: unknowns have the rates that it reads.
+bool has_rates_for(const FieldQuantity& quantity, const Field& field) {
+  return std::ranges::all_of(quantity.terms, [&](const BoundTerm& bound) {
+    return std::ranges::all_of(bound.term->signature(field.mesh().dimension()).inputs, [&](const Slot& slot) {
+      if (slot.level == Level::now || slot.level == Level::old) return true;
+      const Field::ComponentRange place = field.place(bound.operands.at(slot.operand).unknown);
+      return field.blocks()[place.block].time_order[place.offset] >=
+             (slot.level == Level::second_rate ? 2 : 1);
+    });
+  });
+}
+
+/// Unknowns of bodies that are given, or tied to nothing but what has rates, have rates as well, whatever
+/// their physics needs. Bodies have no quantities that read rates of others.
+class RatesOfBodies {
+ public:
+  RatesOfBodies(std::vector<FieldEntry>& fields, const std::vector<Ties::Resolved>& ties,
+                const Communicator& communicator)
+      : communicator_(communicator) {
+    for (FieldEntry& entry : fields) {
+      if (entry.physics->support() == Support::point)
+        bodies_.push_back({&entry, static_cast<int>(blocks_.size())});
+      for (Block& block : entry.field->blocks()) blocks_.push_back(&block);
+    }
+    for (const Ties::Resolved& tie : ties) tie_of_[tie.unknown.key()] = &tie;
+  }
+
+  /// Collective.
+  void carry() {
+    for (const bool tied : {false, true})  // these to those that are given, too
+      for (const auto& [entry, first] : bodies_)
+        for (const Unknown& unknown : entry->field->unknowns())
+          if (unknown.role != UnknownRole::derived) carry(entry->field->place(unknown.name), first, tied);
+    for (const auto& [entry, first] : bodies_)
+      std::erase_if(entry->outputs,
+                    [&](const FieldQuantity& output) { return !has_rates_for(output, *entry->field); });
+  }
+
+ private:
+  void carry(const Field::ComponentRange& place, int first, bool tied) {
+    Block& block = *blocks_[first + place.block];
+    bool moves = true;
+    for (int node = 0; node < block.space->owned_nodes(); ++node)
+      for (int c = place.offset; c < place.offset + place.components; ++c)
+        moves = moves && (block.prescribed[static_cast<std::size_t>(node) * block.size + c] != 0 ||
+                          (tied && follows({first + place.block, block.space->global_node(node), c})));
+    if (communicator_.any(!moves)) return;
+    for (int c = place.offset; c < place.offset + place.components; ++c)
+      block.time_order[c] = std::max(block.time_order[c], 1);
+  }
+  [[nodiscard]] bool follows(const UnknownPlace::Key& unknown) const {
+    const auto tie = tie_of_.find(unknown);
+    return tie != tie_of_.end() && std::ranges::all_of(tie->second->to, [&](const TiedTo& to) {
+             return to.unknown.is_clock() || blocks_[to.unknown.block]->time_order[to.unknown.component] > 0;
+           });
+  }
+
+  const Communicator& communicator_;
+  std::vector<Block*> blocks_;                       ///< of all fields
+  std::vector<std::pair<FieldEntry*, int>> bodies_;  ///< with the number of the first block
+  std::map<UnknownPlace::Key, const Ties::Resolved*> tie_of_;
+};
+
 /// What a physics declares of its unknowns.
 /// @throws PluginFault for what cannot be
 std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
@@ -199,6 +263,16 @@ class FieldsForConstraint final : public ConstraintSetup {
   Problem& problem_;
 };
 
+/// Work on a domain, which may be a plugin's: one that fails on a rank of its own would leave the others
+/// waiting.
+void attempt(const Communicator& communicator, const IntegrationDomain& domain,
+             const std::function<void()>& work) {
+  together(communicator, [&] {
+    call_plugin(
+        {}, [&] { return "the integration over " + domain.description() + plugin_of(domain); }, work);
+  });
+}
+
 }  // namespace
 
 FieldEntry::FieldEntry() = default;
@@ -255,7 +329,8 @@ std::vector<const Constraint*> Problem::constraints() const {
 
 void Problem::occupy(FieldEntry& entry, const std::vector<char>& active, const CutMesh* cut) {
   entry.field->occupy(active, cut);
-  for (auto& [domain, terms] : domains_) domain->update(*entry.field);
+  for (auto& [domain, terms] : domains_)
+    attempt(communicator_, *domain, [&, &of = *domain] { of.update(*entry.field); });
   place_levels(fields_, joins_, entry);
 }
 
@@ -281,13 +356,15 @@ void Problem::finish(double time, bool shape_derivatives) {
   carry_rates();
   update_cuts(time_point(time, 0, 1));
   for (auto& [name, parts] : interfaces_)
-    for (InterfacePart& part : parts) part.domain->follow(time);
+    for (InterfacePart& part : parts)
+      attempt(communicator_, *part.domain, [&] { part.domain->follow(time); });
   assembler_ = std::make_unique<Assembler>(fields, communicator_);
   using Role = ElementEvaluator::Role;
   for (const auto& [domain, terms] : domains_)
     assembler_->add(domain, terms, shape_derivatives ? Role::integrate : Role::integrate_at_rest);
   if (shape_derivatives) add_swept_volumes();
   update_ties(time_point(time, 0, 1));
+  RatesOfBodies(fields_, ties(time_point(time, 0, 1)), communicator_).carry();
   assembler_->rebuild();
 }
 
@@ -647,12 +724,14 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (auto& [name, parts] : interfaces_)
     for (InterfacePart& part : parts) {
       bool moved = false;
-      together(communicator_, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      attempt(communicator_, *part.domain, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
       if (communicator_.any(moved)) change = std::max(change, SpaceChange::geometry);
     }
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
   for (const SpaceUpdate& update : space_updates_)
-    if (update(at)) change = SpaceChange::unknowns;
+    together(communicator_, [&] {
+      if (update(at)) change = SpaceChange::unknowns;
+    });
   if (update_ties(at)) change = SpaceChange::unknowns;
   if (change != SpaceChange::none) assembler_->rebuild();
   if (!constraints_.empty()) settle_rates(at);

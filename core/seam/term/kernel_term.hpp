@@ -118,8 +118,8 @@ struct Point {
   Vec<dim, G> normal;    ///< outward unit normal of side 0; zero in cell terms
   double cell_size = 0;  ///< m, diameter of side 0's cell; of the larger cell at a face between two
   /// m, on boundaries and interfaces: volume of side 0's cell over the area of the boundary in it, the length
-  /// that scales Nitsche penalties (the whole cell's volume where it is cut). At a face between two cells: the
-  /// larger of both volumes over its area.
+  /// that scales Nitsche penalties (the whole cell's volume where it is cut). At a face between two cells:
+  /// the larger of both volumes over its area.
   double trace_size = 0;
   /// m, on interfaces: the same material point in the reference configuration of side 1's mesh.
   Vec<dim, G> partner_position;

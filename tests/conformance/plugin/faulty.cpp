@@ -144,22 +144,27 @@ class Faulty final : public Physics {
   Location where_;
 };
 
-/// c_a = c_b + c_b^2/2 between two nodes, told wrongly.
+/// c_a = (1 + t/10) c_b + c_b^2/2 between two nodes, told wrongly.
 class Crooked final : public Constraint {
  public:
   explicit Crooked(std::string how) : how_(std::move(how)) {}
   void build(ConstraintSetup& setup) override { field_ = &setup.field("plate"); }
-  void tie(Ties& ties, const TimePoint&) const override {
+  void tie(Ties& ties, const TimePoint& at) const override {
     if (how_ == "throws") throw std::runtime_error("no such row");
     const int master = 7, tied = 17;  // of the 25 nodes, none on the edge that is held
-    const double v = field_->blocks()[0].now.value[master];
-    const UnknownPlace to = ties.place(*field_, 0, master, 0);
-    const double slope = how_ == "slope" ? 1 + 2 * v : 1 + v;
-    const double value = v + v * v / 2 + (how_ == "remembers" ? 1e-3 * before_ : 0);
+    const double v = field_->blocks()[0].now.value[master], by_time = 0.1;
+    const UnknownPlace to = ties.place(*field_, 0, master, 0), clock = UnknownPlace::clock();
+    const double slope = 1 + by_time * at.time + (how_ == "slope" ? 2 * v : v);
+    const double value = (1 + by_time * at.time) * v + v * v / 2 + (how_ == "remembers" ? 1e-3 * before_ : 0);
     before_ = v + before_ / 2;  // of more than the last time it was asked
-    ties.tie(ties.place(*field_, 0, tied, 0), {{to, slope, how_ == "rate" ? 2 * slope : slope}},
+    ties.tie(ties.place(*field_, 0, tied, 0),
+             {{to, slope, how_ == "rate" ? 2 * slope : slope},
+              {clock, 0, (how_ == "clock" ? 2 : 1) * by_time * v}},
              value - slope * v);
-    if (how_ != "change") ties.add_change(to, to, how_ == "slope" || how_ == "rate" ? 2 : 1);
+    const double curvature = how_ == "slope" || how_ == "rate" ? 2 : 1;
+    if (how_ != "change") ties.add_change(to, to, curvature, how_ == "motion" ? 2 : curvature);
+    ties.add_change(to, clock, by_time);
+    ties.add_change(clock, to, by_time);
   }
 
  private:

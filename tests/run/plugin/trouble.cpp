@@ -11,11 +11,14 @@
 #include <string>
 #include <thread>
 
+#include "seam/assembly/domains.hpp"
 #include "seam/constraint/constraint.hpp"
+#include "seam/interface/interface.hpp"
 #include "seam/linear/linear_solver.hpp"
 #include "seam/plugin/plugin.hpp"
 #include "seam/run/interruption.hpp"
 #include "seam/scene/function.hpp"
+#include "seam/term/kernel_term.hpp"
 
 namespace {
 
@@ -95,6 +98,73 @@ class TroubleWithTies final : public seam::Constraint {
   std::string rank_;
 };
 
+/// A boundary that on one rank fails in one of the calls that find its points, counted from 1.
+class TroubleWithPoints final : public seam::IntegrationDomain {
+ public:
+  TroubleWithPoints(seam::BoundaryDomain inner, const Parameters& p)
+      : inner_(std::move(inner)), in_(p.text("in")), call_(p.integer("call")), rank_(p.text("rank")) {}
+  [[nodiscard]] int size() const override { return inner_.size(); }
+  [[nodiscard]] std::vector<seam::Field*> fields() const override { return inner_.fields(); }
+  void fill(int index, seam::Element& element) const override { inner_.fill(index, element); }
+  [[nodiscard]] const int* nodes(int index, int side, int block) const override {
+    return inner_.nodes(index, side, block);
+  }
+  [[nodiscard]] std::string description() const override { return inner_.description(); }
+  void update(const seam::Field& field) override {
+    fail_in("update");
+    inner_.update(field);
+  }
+  bool follow(double /*time*/) override {
+    fail_in("follow");
+    return false;
+  }
+
+ private:
+  void fail_in(const std::string& what) {
+    const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+    if (what == in_ && ++calls_ == call_ && rank_ == (rank ? rank : "0"))
+      throw std::runtime_error("the points went astray");
+  }
+
+  seam::BoundaryDomain inner_;
+  std::string in_;
+  long long call_, calls_ = 0;
+  std::string rank_;
+};
+
+class TroubleWithInterface final : public seam::Interface {
+ public:
+  explicit TroubleWithInterface(const Parameters& p) : parameters_(p) {}
+  [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("field")}; }
+  [[nodiscard]] std::vector<seam::InterfacePart> build(seam::InterfaceSetup& setup) const override {
+    return {{"", std::make_shared<TroubleWithPoints>(
+                     seam::BoundaryDomain(*setup.sides[0], parameters_.text("boundary"), setup.degree),
+                     parameters_)}};
+  }
+
+ private:
+  Parameters parameters_;
+};
+
+/// <dv, v>
+struct Drag {
+  using velocity = seam::Vector<0>;
+  using Reads = seam::Slots<seam::Value<velocity>>;
+  using Tests = seam::Slots<seam::Value<velocity>>;
+  template <int dim, class T>
+  void operator()(const seam::Point<dim>& /*at*/, const seam::Trial<dim, T, Reads>& s,
+                  seam::Test<dim, T, Tests>& r) const {
+    r.value(velocity{}) += s.value(velocity{});
+  }
+};
+
+class Brake final : public seam::Coupling {
+ public:
+  [[nodiscard]] std::vector<SideTerm> terms(const seam::CouplingSides& /*sides*/) const override {
+    return {{seam::make_term(Drag{}), {{0, "velocity"}}}};
+  }
+};
+
 /// Solves as another one does, but for one of its solves, which finds the matrix singular.
 class Failing final : public seam::LinearSolver {
  public:
@@ -141,6 +211,21 @@ SEAM_PLUGIN(registry) {
                                  [](const Parameters& p, const seam::Registry& /*registry*/) {
                                    return std::make_unique<TroubleWithTies>(p);
                                  });
+  seam::Schema points("A boundary that ends the run.");
+  points.reference("field", "the field", "field");
+  points.text("boundary", "the boundary of its mesh");
+  points.choice("in", "what fails", {"update", "follow"});
+  points.integer("call", "the call that fails, counted from 1");
+  points.text("rank", "on which it fails").otherwise("0");
+  registry.add<seam::Interface>("interface", "trouble", points,
+                                [](const Parameters& p, const seam::Registry& /*registry*/) {
+                                  return std::make_unique<TroubleWithInterface>(p);
+                                });
+  seam::Schema brake("A drag.");
+  brake.reference("on", "where", "interface");
+  registry.add<seam::Coupling>(
+      "coupling", "trouble", brake,
+      [](const Parameters& /*p*/, const seam::Registry& /*all*/) { return std::make_unique<Brake>(); });
   seam::Schema failing("A solver that fails once.");
   failing.integer("at", "the solve that fails, counted from 1");
   failing.typed("by", "what solves the others", "linear_solver").otherwise("direct");
