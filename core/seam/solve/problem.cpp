@@ -722,7 +722,12 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (auto& [name, parts] : interfaces_)
     for (InterfacePart& part : parts) {
       bool moved = false;
-      attempt(communicator_, *part.domain, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      try {
+        attempt(communicator_, *part.domain, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      } catch (const StepRefused& refused) {
+        throw StepRefused(
+            fmt::format("{} (interface '{}', {})", refused.what(), name, interface_places_.at(name).text()));
+      }
       if (communicator_.any(moved)) change = std::max(change, SpaceChange::geometry);
     }
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);
