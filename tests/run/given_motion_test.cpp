@@ -240,6 +240,70 @@ output:
     }
 }
 
+TEST_CASE("boundaries of a fluid move it as given, and bring its mass to their acceleration") {
+  // Both ends of its one cell, so all of it: 2 kg.
+  for (const std::string scheme : {"theta: 0.5", "theta: 1", "scheme: bdf2"})
+    for (const double end : {10.0, 100.0}) {
+      const Run run(R"yaml(
+title: A box of fluid that is shaken
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [1, 1]}}}
+fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: [x_min, x_max, y_min, y_max], velocity: ["0.3*cos(t)", "0.1*t^2"]}]}}
+output:
+  fields: false
+  probes:
+    v: {field: water, at: [2, 1], quantity: velocity}
+    left: {field: water, on: x_min, quantity: reaction}
+    right: {field: water, on: x_max, quantity: reaction}
+  formulas: {x: left_x + right_x, y: left_y + right_y}
+)yaml" + steps(scheme, end, end / 50),
+                    "--quiet");
+      CAPTURE(scheme, end, run.done.output);
+      REQUIRE(run.done.code == 0);
+      CHECK(off(run, "v.x", [](double t) { return 0.3 * std::cos(t); }) < 1e-12);
+      const std::vector<double> time = run.series("time"), x = run.series("x"), y = run.series("y");
+      for (std::size_t k = 1; k < time.size(); ++k) {
+        CHECK(x[k] == Approx(-0.6 * std::sin(time[k])).epsilon(0).margin(1e-12));
+        CHECK(y[k] == Approx(0.4 * time[k]).epsilon(0).margin(1e-12 * end));
+      }
+    }
+}
+
+TEST_CASE("given motions are the same on all numbers of ranks, and resumed") {
+  const std::string scene = R"yaml(
+title: Bodies that are moved
+dimension: 2
+plugins: [solid]
+meshes:
+  one: {grid: {from: [0, 0], to: [2, 1], cells: [2, 1]}}
+  two: {grid: {from: [2, 0], to: [3, 0.5], cells: [2, 1]}}
+fields:
+  one: {type: rigid_body, mesh: one, density: 1, translation: ["0.3*sin(t)", null], rotation: ["1 + t^2"]}
+  two: {type: rigid_body, mesh: two, density: 1}
+constraints: [{type: joint, kind: hinge, body: two, to: one, at: [2, 0.25], motion: "exp(-t)"}]
+time: {theta: 0.5, end: 1, step: {initial: 0.1}}
+output:
+  fields: false
+  restart: {every: 1}
+  probes: {v: {field: two, quantity: velocity}, w: {field: two, quantity: spin}, f: {field: two, quantity: joint_force}}
+)yaml";
+  const Folder folder;
+  const std::string file = folder.file("scene.yaml", scene);
+  const auto run = [&](const std::string& where, const std::string& options, const std::string& before = "") {
+    const Result done = seam(
+        "run " + file + " --quiet --no-picture --folder " + (folder.path / where).string() + " " + options,
+        before);
+    CAPTURE(where, done.output);
+    REQUIRE(done.code == 0);
+    return folder.read(where + "/series.csv");
+  };
+  const std::string whole = run("whole", "");
+  static_cast<void>(run("parts", "--stop-after 4"));
+  CHECK(run("parts", "--resume") == whole);
+  CHECK(difference(run("ranks", "", "mpirun --oversubscribe -np 2 "), whole) < 1e-11);
+}
+
 TEST_CASE("a node beside a given one swings as its balance says, to second order") {
   // One element, its left end moved by c t^2: w'' + w_0^2 (w - c t^2) = -c of its right end, as its mass is
   // 1/6 [2 1; 1 2] and its stiffness 100; so w = c t^2 - 3 c/w_0^2 (1 - cos(w_0 t)).
