@@ -150,9 +150,11 @@ class RatesOfBodies {
       for (const auto& [entry, first] : bodies_)
         for (const Unknown& unknown : entry->field->unknowns())
           if (unknown.role != UnknownRole::derived) carry(entry->field->place(unknown.name), first, tied);
-    for (const auto& [entry, first] : bodies_)
-      std::erase_if(entry->outputs,
-                    [&](const FieldQuantity& output) { return !has_rates_for(output, *entry->field); });
+    for (const auto& body : bodies_) {
+      const Field& field = *body.first->field;
+      std::erase_if(body.first->outputs,
+                    [&](const FieldQuantity& output) { return !has_rates_for(output, field); });
+    }
   }
 
  private:
