@@ -71,25 +71,25 @@ TEST_CASE("a body in space that is turned has the spin of what is given, and its
       {"1 + 100*t", [](double t) { return 1 + 100 * t; }, [](double) { return 100.0; }},
       {"2 - 5*t^2", [](double t) { return 2 - 5 * t * t; }, [](double t) { return -10 * t; }}};
   for (const std::string& scheme : schemes)
-    for (const auto& [text, angle, rate] : motions) {
+    for (const Motion& motion : motions) {
       const Run run(R"yaml(
 title: A body that is turned about its third axis
 dimension: 3
 plugins: [solid]
 meshes: {box: {grid: {from: [0, 0, 0], to: [2, 1, 1], cells: [2, 1, 1]}}}
 fields: {b: {type: rigid_body, mesh: box, density: 1, translation: ["2*t", 0, 0], rotation: [0, 0, ")yaml" +
-                        text + R"yaml("]}}
+                        motion.text + R"yaml("]}}
 output:
   fields: false
   probes: {v: {field: b, quantity: velocity}, a: {field: b, quantity: rotation}, w: {field: b, quantity: spin}, l: {field: b, quantity: angular_momentum}}
 )yaml" + steps(scheme, 10, 0.1),
                     "--quiet");
-      CAPTURE(scheme, text, run.done.output);
+      CAPTURE(scheme, motion.text, run.done.output);
       REQUIRE(run.done.code == 0);
       CHECK(off(run, "v.x", [](double) { return 2; }) < 1e-12);
-      CHECK(off(run, "a.z", angle) < 1e-12 * 500);
-      CHECK(off(run, "w.z", rate) < 1e-12 * 100);
-      CHECK(off(run, "l.z", [&](double t) { return 10.0 / 12 * rate(t); }) < 1e-12 * 100);
+      CHECK(off(run, "a.z", motion.angle) < 1e-12 * 500);
+      CHECK(off(run, "w.z", motion.rate) < 1e-12 * 100);
+      CHECK(off(run, "l.z", [&](double t) { return 10.0 / 12 * motion.rate(t); }) < 1e-12 * 100);
       CHECK(off(run, "w.x", [](double) { return 0; }) < 1e-12 * 100);
     }
 }
