@@ -240,36 +240,6 @@ output:
     }
 }
 
-TEST_CASE("boundaries of a fluid move it as given, and bring its mass to their acceleration") {
-  // Both ends of its one cell, so all of it: 2 kg.
-  for (const std::string scheme : {"theta: 0.5", "theta: 1", "scheme: bdf2"})
-    for (const double end : {10.0, 100.0}) {
-      const Run run(R"yaml(
-title: A box of fluid that is shaken
-dimension: 2
-plugins: [cutfem_fluid]
-meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [1, 1]}}}
-fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: [x_min, x_max, y_min, y_max], velocity: ["0.3*cos(t)", "0.1*t^2"]}]}}
-output:
-  fields: false
-  probes:
-    v: {field: water, at: [2, 1], quantity: velocity}
-    left: {field: water, on: x_min, quantity: reaction}
-    right: {field: water, on: x_max, quantity: reaction}
-  formulas: {x: left_x + right_x, y: left_y + right_y}
-)yaml" + steps(scheme, end, end / 50),
-                    "--quiet");
-      CAPTURE(scheme, end, run.done.output);
-      REQUIRE(run.done.code == 0);
-      CHECK(off(run, "v.x", [](double t) { return 0.3 * std::cos(t); }) < 1e-12);
-      const std::vector<double> time = run.series("time"), x = run.series("x"), y = run.series("y");
-      for (std::size_t k = 1; k < time.size(); ++k) {
-        CHECK(x[k] == Approx(-0.6 * std::sin(time[k])).epsilon(0).margin(1e-12));
-        CHECK(y[k] == Approx(0.4 * time[k]).epsilon(0).margin(1e-12 * end));
-      }
-    }
-}
-
 TEST_CASE("given motions are the same on all numbers of ranks, and resumed") {
   const std::string scene = R"yaml(
 title: Bodies that are moved
