@@ -5,7 +5,7 @@ Kinds and their shares are those of a review of 84 mistakes: text (keys, types, 
 results 10 %, physics that is legal but hardly meant 15 %, files, meshes, restart 10 %. Of rigid bodies and constraints those of a later review.
 """
 
-BEAM, CYLINDERS, LEAF, BODIES, BLOCKS = "beam", "cylinders", "leaf", "bodies", "blocks"
+BEAM, CYLINDERS, LEAF, BODIES, BLOCKS = "beam", "cylinders", "leaf", "bodies", "falling_block"
 
 MISTAKES = [
     # Keys, types, names, ranges.

@@ -324,32 +324,3 @@ TEST_CASE("a constraint that fails on one rank ends the run on all of them, with
                                     Contains("a constraint of plugin 'trouble'"));
     }
 }
-
-TEST_CASE("points of an interface that fail on one rank end the run on all of them, with their message",
-          "[mpi]") {
-  const Folder folder;
-  std::ifstream in(SEAM_SOURCE_DIR "/tests/run/moving_disc.yaml");
-  const std::string disc{std::istreambuf_iterator<char>(in), {}};
-  const auto with = [](std::string text, const std::string& before, const std::string& what) {
-    return text.insert(text.find(before), what);
-  };
-  struct Failure {
-    std::string in, call, rank;
-  };
-  // At the start, and in the middle of a step.
-  for (const auto& [where, call, rank] : std::vector<Failure>{
-           {"follow", "1", "1"}, {"follow", "9", "0"}, {"update", "1", "0"}, {"update", "9", "1"}}) {
-    std::string text = with(disc, "meshes:", "plugin_folders: [\"" SEAM_TROUBLE_PLUGIN "\"]\n");
-    text = with(text, "cutfem_fluid]", "trouble, ");
-    text = with(text, "coupling:",
-                "  wall: {type: trouble, field: water, boundary: y_max, in: " + where + ", call: " + call +
-                    ", rank: \"" + rank + "\"}\n");
-    text = with(text, "time:", "  - {type: trouble, on: wall}\n");
-    const Result result = run(folder, "r", "--overwrite", folder.file("points.yaml", text),
-                              "timeout 100 mpirun --oversubscribe -np 2 ");
-    CAPTURE(where, call, rank, result.output);
-    CHECK(result.code == 3);
-    CHECK_THAT(result.output, Contains("the points went astray") && Contains("boundary 'y_max'") &&
-                                  Contains("of plugin 'trouble'"));
-  }
-}

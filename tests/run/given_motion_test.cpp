@@ -71,25 +71,25 @@ TEST_CASE("a body in space that is turned has the spin of what is given, and its
       {"1 + 100*t", [](double t) { return 1 + 100 * t; }, [](double) { return 100.0; }},
       {"2 - 5*t^2", [](double t) { return 2 - 5 * t * t; }, [](double t) { return -10 * t; }}};
   for (const std::string& scheme : schemes)
-    for (const auto& [text, angle, rate] : motions) {
+    for (const Motion& motion : motions) {
       const Run run(R"yaml(
 title: A body that is turned about its third axis
 dimension: 3
 plugins: [solid]
 meshes: {box: {grid: {from: [0, 0, 0], to: [2, 1, 1], cells: [2, 1, 1]}}}
 fields: {b: {type: rigid_body, mesh: box, density: 1, translation: ["2*t", 0, 0], rotation: [0, 0, ")yaml" +
-                        text + R"yaml("]}}
+                        motion.text + R"yaml("]}}
 output:
   fields: false
   probes: {v: {field: b, quantity: velocity}, a: {field: b, quantity: rotation}, w: {field: b, quantity: spin}, l: {field: b, quantity: angular_momentum}}
 )yaml" + steps(scheme, 10, 0.1),
                     "--quiet");
-      CAPTURE(scheme, text, run.done.output);
+      CAPTURE(scheme, motion.text, run.done.output);
       REQUIRE(run.done.code == 0);
       CHECK(off(run, "v.x", [](double) { return 2; }) < 1e-12);
-      CHECK(off(run, "a.z", angle) < 1e-12 * 500);
-      CHECK(off(run, "w.z", rate) < 1e-12 * 100);
-      CHECK(off(run, "l.z", [&](double t) { return 10.0 / 12 * rate(t); }) < 1e-12 * 100);
+      CHECK(off(run, "a.z", motion.angle) < 1e-12 * 500);
+      CHECK(off(run, "w.z", motion.rate) < 1e-12 * 100);
+      CHECK(off(run, "l.z", [&](double t) { return 10.0 / 12 * motion.rate(t); }) < 1e-12 * 100);
       CHECK(off(run, "w.x", [](double) { return 0; }) < 1e-12 * 100);
     }
 }
@@ -238,6 +238,40 @@ output:
         CHECK(y[k] == Approx(0.4).epsilon(1e-11 * end * end));
       }
     }
+}
+
+TEST_CASE("given motions are the same on all numbers of ranks, and resumed") {
+  const std::string scene = R"yaml(
+title: Bodies that are moved
+dimension: 2
+plugins: [solid]
+meshes:
+  one: {grid: {from: [0, 0], to: [2, 1], cells: [2, 1]}}
+  two: {grid: {from: [2, 0], to: [3, 0.5], cells: [2, 1]}}
+fields:
+  one: {type: rigid_body, mesh: one, density: 1, translation: ["0.3*sin(t)", null], rotation: ["1 + t^2"]}
+  two: {type: rigid_body, mesh: two, density: 1}
+constraints: [{type: joint, kind: hinge, body: two, to: one, at: [2, 0.25], motion: "exp(-t)"}]
+time: {theta: 0.5, end: 1, step: {initial: 0.1}}
+output:
+  fields: false
+  restart: {every: 1}
+  probes: {v: {field: two, quantity: velocity}, w: {field: two, quantity: spin}, f: {field: two, quantity: joint_force}}
+)yaml";
+  const Folder folder;
+  const std::string file = folder.file("scene.yaml", scene);
+  const auto run = [&](const std::string& where, const std::string& options, const std::string& before = "") {
+    const Result done = seam(
+        "run " + file + " --quiet --no-picture --folder " + (folder.path / where).string() + " " + options,
+        before);
+    CAPTURE(where, done.output);
+    REQUIRE(done.code == 0);
+    return folder.read(where + "/series.csv");
+  };
+  const std::string whole = run("whole", "");
+  static_cast<void>(run("parts", "--stop-after 4"));
+  CHECK(run("parts", "--resume") == whole);
+  CHECK(difference(run("ranks", "", "mpirun --oversubscribe -np 2 "), whole) < 1e-11);
 }
 
 TEST_CASE("a node beside a given one swings as its balance says, to second order") {

@@ -189,7 +189,8 @@ output: {{fields: false}}
   CHECK_THAT(done.output, Catch::Contains("the surface of 'skin' has passed through an obstacle") &&
                               Catch::Contains("more than the interface's `depth` of 0.1 m") &&
                               Catch::Contains("as `gap` tells") &&
-                              Catch::Contains("a greater `surface_stiffness`"));
+                              Catch::Contains("a greater `surface_stiffness`") &&
+                              Catch::Contains("(interface 'floor', ") && Catch::Contains("scene.yaml:17:"));
   const std::string series = folder.read("out/series.csv");
   const auto gap = column(series, "floor.gap");
   CHECK(*std::ranges::min_element(gap) > -0.1);

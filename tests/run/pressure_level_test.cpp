@@ -144,3 +144,36 @@ time: {theta: 0.5, end: 0.5, step: {initial: 0.05}}
       CHECK(together[k] == Approx(alone[k]).epsilon(0).margin(1e-13));
   }
 }
+
+TEST_CASE("boundaries of a fluid move it as given, and bring its mass to their acceleration") {
+  // Both ends of its one cell, so all of it: 2 kg.
+  for (const std::string scheme : {"theta: 0.5", "theta: 1", "scheme: bdf2"})
+    for (const double end : {10.0, 100.0}) {
+      const Run run(R"yaml(
+title: A box of fluid that is shaken
+dimension: 2
+plugins: [cutfem_fluid]
+meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [1, 1]}}}
+fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: [x_min, x_max, y_min, y_max], velocity: ["0.3*cos(t)", "0.1*t^2"]}]}}
+output:
+  fields: false
+  probes:
+    v: {field: water, at: [2, 1], quantity: velocity}
+    left: {field: water, on: x_min, quantity: reaction}
+    right: {field: water, on: x_max, quantity: reaction}
+  formulas: {x: left_x + right_x, y: left_y + right_y}
+)yaml" + std::string("time: {") +
+                        scheme + ", end: " + std::to_string(end) +
+                        ", step: {initial: " + std::to_string(end / 50) + "}}\n",
+                    "--quiet");
+      CAPTURE(scheme, end, run.done.output);
+      REQUIRE(run.done.code == 0);
+      const std::vector<double> time = run.series("time"), v = run.series("v.x"), x = run.series("x"),
+                                y = run.series("y");
+      for (std::size_t k = 1; k < time.size(); ++k) {
+        CHECK(v[k] == Approx(0.3 * std::cos(time[k])).epsilon(0).margin(1e-12));
+        CHECK(x[k] == Approx(-0.6 * std::sin(time[k])).epsilon(0).margin(1e-12));
+        CHECK(y[k] == Approx(0.4 * time[k]).epsilon(0).margin(1e-12 * end));
+      }
+    }
+}

@@ -159,7 +159,7 @@ std::map<std::string, BuiltInterface> build_interfaces(const Scene& scene, Built
           where, [&] { return fmt::format("interface '{}'{}", name, plugin_of(interface)); },
           [&] { return interface.build(setup); });
     });
-    built.problem->name_interface(name, parts);
+    built.problem->name_interface(name, parts, where);
     all[name] = {std::move(parts), setup.sides};
   };
   for (const auto& [name, interface] : built.interfaces)

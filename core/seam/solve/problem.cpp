@@ -150,9 +150,11 @@ class RatesOfBodies {
       for (const auto& [entry, first] : bodies_)
         for (const Unknown& unknown : entry->field->unknowns())
           if (unknown.role != UnknownRole::derived) carry(entry->field->place(unknown.name), first, tied);
-    for (const auto& [entry, first] : bodies_)
-      std::erase_if(entry->outputs,
-                    [&](const FieldQuantity& output) { return !has_rates_for(output, *entry->field); });
+    for (const auto& body : bodies_) {
+      const Field& field = *body.first->field;
+      std::erase_if(body.first->outputs,
+                    [&](const FieldQuantity& output) { return !has_rates_for(output, field); });
+    }
   }
 
  private:
@@ -724,7 +726,12 @@ SpaceChange Problem::update_spaces(const TimePoint& at) {
   for (auto& [name, parts] : interfaces_)
     for (InterfacePart& part : parts) {
       bool moved = false;
-      attempt(communicator_, *part.domain, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      try {
+        attempt(communicator_, *part.domain, [&, &domain = *part.domain] { moved = domain.follow(at.time); });
+      } catch (const StepRefused& refused) {
+        throw StepRefused(
+            fmt::format("{} (interface '{}', {})", refused.what(), name, interface_places_.at(name).text()));
+      }
       if (communicator_.any(moved)) change = std::max(change, SpaceChange::geometry);
     }
   for (auto& [domain, terms] : domains_) domain->forget_constants(false);

@@ -123,8 +123,10 @@ class Problem {
   void add_constraint(std::unique_ptr<Constraint> constraint, const Location& where = {});
   [[nodiscard]] std::vector<const Constraint*> constraints() const;
   /// Lets the interface be found by its name in the scene.
-  void name_interface(const std::string& name, std::vector<InterfacePart> parts) {
+  /// @param where it stands there, for messages
+  void name_interface(const std::string& name, std::vector<InterfacePart> parts, const Location& where = {}) {
     interfaces_[name] = std::move(parts);
+    interface_places_[name] = where;
   }
   [[nodiscard]] const std::map<std::string, std::vector<InterfacePart>>& interfaces() const {
     return interfaces_;
@@ -247,6 +249,7 @@ class Problem {
   std::vector<FieldEntry> fields_;
   std::vector<DomainTerms> domains_;
   std::map<std::string, std::vector<InterfacePart>> interfaces_;
+  std::map<std::string, Location> interface_places_;
   std::vector<InterfaceMeasure> measures_;
   std::vector<std::pair<std::unique_ptr<Constraint>, Location>> constraints_;
   std::vector<const JoinsFields*> joins_;  ///< those of the constraints that are such
