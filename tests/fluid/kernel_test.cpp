@@ -159,7 +159,8 @@ TEST_CASE("jump penalties have the parameters of (2.118) and (3.6)") {
   const OnePoint at(2, step);
   // v, dv/dn on both sides, dp/dn on both sides, and the second derivatives of the same.
   const std::vector<double> in{1.2, -0.9, 0.3, 0.5, -0.2, 0.1, 2.0, -1.0, 0.7, 0.4, 0.2, -0.6, 1.5, 0.5};
-  const double h = length == JumpLength::across ? trace_size : cell_size, mu = flow.viscosity, rho = flow.density, square = 1.2 * 1.2 + 0.9 * 0.9;
+  const double h = length == JumpLength::across ? trace_size : cell_size, mu = flow.viscosity,
+               rho = flow.density, square = 1.2 * 1.2 + 0.9 * 0.9;
   const double slow = 0.1 * mu / (rho * h), speed = square / std::sqrt(square + slow * slow);
   CHECK(speed == Approx(std::sqrt(square)).epsilon(1e-2));
   const double inertia = step > 0 ? rho / (theta * step) : 0;
