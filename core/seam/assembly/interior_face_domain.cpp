@@ -74,7 +74,8 @@ void InteriorFaceDomain::fill(int index, Element& element) const {
   element.measure_face(topology(field_->mesh().type()), first.face, tables_.rule().weights);
   const double size = std::max(first.diameter, second.diameter);
   const Mesh& mesh = field_->mesh();
-  element.set_sizes(size, std::max(mesh.volume(face.side[0].cell), mesh.volume(face.side[1].cell)) / element.measure());
+  element.set_sizes(
+      size, std::max(mesh.volume(face.side[0].cell), mesh.volume(face.side[1].cell)) / element.measure());
 }
 
 const int* InteriorFaceDomain::nodes(int index, int side, int block) const {

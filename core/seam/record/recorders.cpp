@@ -104,7 +104,8 @@ void RestartRecorder::keep(const Standing& now) {
 }
 
 void ProgressRecorder::take(const Standing& now, const Attempt& last) {
-  print_progress({now.state.step_number, now.state.time, last.report.iterations(), last.report.shares, now.part, now.seconds});
+  print_progress({now.state.step_number, now.state.time, last.report.iterations(), last.report.shares,
+                  now.part, now.seconds});
 }
 
 }  // namespace seam
