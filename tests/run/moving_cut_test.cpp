@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A body that moves through the mesh of a fluid: nothing may depend on how the run was cut into pieces, on
 // the number of ranks, or on factorisations that were kept.
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "scene_run.hpp"
