@@ -154,8 +154,8 @@ TEST_CASE("tangents of all integrands match finite differences") {
 TEST_CASE("jump penalties have the parameters of (2.118) and (3.6)") {
   const double step = GENERATE(0.0, time_step);
   const auto length = GENERATE(JumpLength::diameter, JumpLength::across);
-  JumpConstants constants = ::constants;
-  constants.length = length;
+  JumpConstants chosen = constants;
+  chosen.length = length;
   const OnePoint at(2, step);
   // v, dv/dn on both sides, dp/dn on both sides, and the second derivatives of the same.
   const std::vector<double> in{1.2, -0.9, 0.3, 0.5, -0.2, 0.1, 2.0, -1.0, 0.7, 0.4, 0.2, -0.6, 1.5, 0.5};
@@ -170,7 +170,7 @@ TEST_CASE("jump penalties have the parameters of (2.118) and (3.6)") {
   const double jump[2] = {0.3 + 0.2, 0.5 - 0.1}, divergence = 0.6 * jump[0] + 0.8 * jump[1];
 
   const std::vector<double> first(in.begin(), in.begin() + 8);
-  const auto cip = residual(*make_term(InteriorPenalty{flow, constants}), at, first);
+  const auto cip = residual(*make_term(InteriorPenalty{flow, chosen}), at, first);
   const double expected[2] = {tau_u * jump[0] + tau_div * divergence * 0.6,
                               tau_u * jump[1] + tau_div * divergence * 0.8};
   for (int i = 0; i < 2; ++i) {
@@ -180,7 +180,7 @@ TEST_CASE("jump penalties have the parameters of (2.118) and (3.6)") {
   CHECK(cip[4] == Approx(tau_p * 3).epsilon(1e-13));
   CHECK(cip[5] == -cip[4]);
 
-  const auto ghost = residual(*make_term(GhostPenalty{flow, constants, 0.1, 0.002, 0.05}), at, in);
+  const auto ghost = residual(*make_term(GhostPenalty{flow, chosen, 0.1, 0.002, 0.05}), at, in);
   const double cell = cell_size, more = 0.1 * cell * mu + 0.002 * cell * cell * cell * inertia;
   for (int i = 0; i < 2; ++i) CHECK(ghost[i] == Approx(expected[i] + more * jump[i]).epsilon(1e-13));
   CHECK(ghost[4] == Approx(tau_p * 3).epsilon(1e-13));
