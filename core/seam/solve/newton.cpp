@@ -55,8 +55,15 @@ std::string describe_pending(Problem& problem, const TimePoint& at) {
     return block.now
         .value[static_cast<std::size_t>(block.space->local_node(of.node)) * block.size + of.component];
   };
+  const auto is_here = [&](const UnknownPlace& of) {
+    return of.is_clock() || blocks[of.block].block->space->local_node(of.node) >= 0;
+  };
   std::vector<Way> farthest;
   for (const Ties::Resolved& tie : problem.ties(at)) {
+    // Each rank has what its own unknowns are tied to; of others' ties it need not.
+    if (!is_here(tie.unknown) ||
+        !std::ranges::all_of(tie.to, [&](const TiedTo& to) { return is_here(to.unknown); }))
+      continue;
     const Place& place = blocks[tie.unknown.block];
     const FieldEntry& entry = problem.fields()[place.entry];
     Way way{0, tie.constant - value(tie.unknown), place.entry, 0, 0, {}};
