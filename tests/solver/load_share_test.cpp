@@ -82,3 +82,26 @@ TEST_CASE("a share of a source and of what is prescribed is a smaller source and
   for (std::size_t i = 0; i < share.size(); ++i) CHECK(std::abs(share[i] - smaller[i]) < 1e-12);
   CHECK(*std::ranges::max_element(share) > 0.4);
 }
+
+TEST_CASE("what comes to be prescribed while a share acts is so as a whole") {
+  const TimePoint at = time_point(1, 0, 1);
+  auto problem = test::diffusion_problem(CellType::triangle, 3, {.value = "2"});
+  problem->finish();
+  problem->initialise(0, false);
+  problem->begin_step(at);
+  Block& block = problem->fields()[0].field->blocks()[0];
+  const auto free =
+      static_cast<std::size_t>(std::ranges::find(block.prescribed, 0) - block.prescribed.begin());
+  {
+    LoadShare load(*problem, at);
+    load.set(0.25);
+    block.prescribed[free] = 1;
+    block.prescribed_value[free] = 3;
+    load.set(0.5);
+    CHECK(block.prescribed_value[free] == 3);
+    CHECK(*std::ranges::min_element(block.prescribed_value) >= 0);
+    CHECK(std::ranges::count(block.prescribed_value, 1.0) > 0);  // half of 2
+  }
+  CHECK(block.prescribed_value[free] == 3);
+  CHECK(std::ranges::count(block.prescribed_value, 2.0) > 0);
+}

@@ -129,8 +129,9 @@ Results Session::observe(const TimePoint& at) {
 }
 
 /// Newton's method, on what `begin` begins. What is refused is reported as what does not converge.
+/// @param is_start whether its first matrix is that of the state which the scene starts from
 template <class Begin>
-NewtonReport Session::solve(const Begin& begin) {
+NewtonReport Session::solve(bool is_start, const Begin& begin) {
   std::string refused;
   try {
     begin();
@@ -141,7 +142,7 @@ NewtonReport Session::solve(const Begin& begin) {
     refused = singular.what();
     // Where the run starts it is the scene that leaves something unheld. What has been held so far is lost on
     // a state that iterations went astray to, as where a body snaps through.
-    if (state_.step_number == 0 && step_->report().iterations() == 0) {
+    if (is_start && step_->report().iterations() == 0) {
       if (dynamic_cast<const NothingHolds*>(&singular) == nullptr) throw;
       const Diagnostic place{Diagnostic::Severity::error, scene_.root.where("fields"), singular.what()};
       throw NothingHolds(place.text(), singular.equations);
@@ -157,7 +158,7 @@ NewtonReport Session::solve(const Begin& begin) {
 
 /// To the end of a step. @return whether it converged, and accurately enough
 bool Session::iterate(double until) {
-  reports_.push_back(solve([&] { step_->begin(state_.time, until, last_step()); }));
+  reports_.push_back(solve(state_.step_number == 0, [&] { step_->begin(state_.time, until, last_step()); }));
   NewtonReport& report = reports_.back();
   // No shorter step would have less to bear.
   if (!report.converged && stepper_.is_static() && !stepper_.depends_on_time()) raise_load(until, report);
@@ -180,7 +181,7 @@ void Session::raise_load(double until, NewtonReport& report) {
   for (double more = 0.5; share < 1 && more >= least;) {
     const StateStore::Snapshot reached = problem().state().snapshot(state_.time);
     const double next = std::min(1.0, share + more);
-    const NewtonReport part = solve([&] { step_->begin_share(load, next); });
+    const NewtonReport part = solve(false, [&] { step_->begin_share(load, next); });
     report.add(part);
     if (part.converged) {
       share = next;

@@ -78,7 +78,7 @@ class Session {
 
  private:
   template <class Begin>
-  NewtonReport solve(const Begin& begin);
+  NewtonReport solve(bool is_start, const Begin& begin);
   bool iterate(double until);
   void raise_load(double until, NewtonReport& report);
   void require_first_iteration(const FreeModes& free);

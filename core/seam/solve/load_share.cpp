@@ -8,23 +8,22 @@ namespace seam {
 
 LoadShare::LoadShare(Problem& problem, const TimePoint& at) : problem_(problem) {
   problem.update_spaces(at);
-  problem.assembler().assemble(at, true);
+  problem.assembler().assemble(at, false);
   problem.assembler().keep_residual();
   for (const FieldEntry& entry : problem.fields())
     for (Block& block : entry.field->blocks())
-      given_.push_back({&block, block.now.value, block.prescribed_value});
+      for (std::size_t i = 0; i < block.prescribed.size(); ++i)
+        if (block.prescribed[i]) given_.push_back({&block, i, block.now.value[i], block.prescribed_value[i]});
 }
 
 LoadShare::~LoadShare() { set(1); }
 
 void LoadShare::set(double share) {
   problem_.assembler().leave_out(1 - share);
-  for (const Given& given : given_) {
-    std::vector<double>& value = given.block->prescribed_value;
-    // What has come alive since then is given as a whole.
-    for (std::size_t i = 0; i < given.end.size(); ++i)
-      value[i] = share < 1 ? given.start[i] + share * (given.end[i] - given.start[i]) : given.end[i];
-  }
+  // What comes to be prescribed on the way, as the level of a pocket, is so as a whole.
+  for (const auto& [block, unknown, start, end] : given_)
+    if (unknown < block->prescribed_value.size())
+      block->prescribed_value[unknown] = share < 1 ? start + share * (end - start) : end;
 }
 
 }  // namespace seam

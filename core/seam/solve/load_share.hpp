@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "seam/solve/problem.hpp"
@@ -27,9 +28,11 @@ class LoadShare {
   void set(double share);
 
  private:
+  /// One value that is prescribed from the start on.
   struct Given {
     Block* block;
-    std::vector<double> start, end;
+    std::size_t unknown;
+    double start, end;
   };
   Problem& problem_;
   std::vector<Given> given_;

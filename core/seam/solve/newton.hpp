@@ -39,7 +39,7 @@ struct NewtonIteration {
 
 struct NewtonReport {
   bool converged = false;
-  std::string reason;   ///< when not converged
+  std::string reason;   ///< when not converged, or why what acts was raised in shares
   bool frozen = false;  ///< the cut was not updated in the last iterations, see Newton::solve
   std::vector<NewtonIteration> history;
   double linear_seconds = 0;
