@@ -70,8 +70,10 @@ Schema Fluid::schema() {
                    boundary_schema());
   declare_initial(s, "State at the start; default at rest", initial_keys());
   s.typed("stabilisation", "Against oscillations of equal orders and of convection", "fluid_stabilisation")
-      .otherwise("cip");
-  s.object("moving_mesh", "The mesh moves (ALE formulation); needs `stabilisation: residual`",
+      .otherwise("`residual` of order 1, `cip` of order 2", [](const Parameters& fluid) {
+        return fluid.has("order") && fluid.integer("order") == 2 ? "cip" : "residual";
+      });
+  s.object("moving_mesh", "The mesh moves (ALE formulation); needs `residual` or `residual_thesis`",
            moving_mesh_schema())
       .optional();
   s.object("ghost_penalty", "Penalty on jumps around cut cells", ghost_penalty_schema()).otherwise("{}");

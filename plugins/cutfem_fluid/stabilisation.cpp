@@ -10,26 +10,29 @@ void declare_jump_constants(Schema& s) {
   s.number("pressure", "gamma_p: jumps of the pressure's derivatives, thesis (2.118)")
       .otherwise("0.05")
       .above(0);
-  s.number("convective", "gamma_u: jumps of the velocity's derivatives").otherwise("0.05").at_least(0);
+  s.number("convective", "gamma_u: jumps of the velocity's derivatives").otherwise("0.005").at_least(0);
   s.number("divergence", "gamma_div: jumps of the divergence").otherwise("5e-5").at_least(0);
   s.choice("length",
            "The cells' size in these: their `diameter`, or how far they reach `across` the face, for "
-           "stretched cells; default `diameter`",
+           "stretched cells",
            {"diameter", "across"})
-      .optional();
+      .otherwise("across");
 }
 
 JumpConstants jump_constants(const Parameters& parameters) {
-  const bool across = parameters.has("length") && parameters.text("length") == "across";
+  const bool across = parameters.text("length") == "across";
   return {parameters.number("convective"), parameters.number("pressure"), parameters.number("divergence"),
           across ? JumpLength::across : JumpLength::diameter};
 }
 
+/// What the computations of the thesis use, pages 73 and 77.
+constexpr JumpConstants jumps_of_the_thesis{
+    .convective = 0.05, .pressure = 0.05, .divergence = 5e-5, .length = JumpLength::diameter};
+
 /// Continuous interior penalty, thesis 2.2.4.1.
 class InteriorPenaltyStabilisation final : public Stabilisation {
  public:
-  explicit InteriorPenaltyStabilisation(const Parameters& parameters)
-      : constants_(jump_constants(parameters)) {}
+  explicit InteriorPenaltyStabilisation(const JumpConstants& constants) : constants_(constants) {}
   static Schema schema() {
     Schema s("Continuous interior penalty: jumps of derivatives between all cells.");
     declare_jump_constants(s);
@@ -52,9 +55,6 @@ class ResidualBasedStabilisation final : public Stabilisation {
  public:
   ResidualBasedStabilisation(double momentum, double divergence, const JumpConstants& constants)
       : momentum_(momentum), divergence_(divergence), constants_(constants) {}
-  explicit ResidualBasedStabilisation(const Parameters& parameters)
-      : ResidualBasedStabilisation(parameters.number("momentum"), parameters.number("volume"),
-                                   jump_constants(parameters)) {}
   static Schema schema() {
     Schema s("SUPG, PSPG and grad-div in uncut cells, interior penalty around cut ones; for order 1.");
     s.number("momentum", "Factor of tau_M (SUPG, PSPG)").otherwise("1").above(0);
@@ -80,27 +80,30 @@ class ResidualBasedStabilisation final : public Stabilisation {
   JumpConstants constants_;
 };
 
-/// `residual` with these numbers, whatever its defaults are.
-std::unique_ptr<Stabilisation> stabilisation_of_the_thesis() {
-  constexpr double convective = 0.05, pressure = 0.05, divergence = 5e-5;
-  return std::make_unique<ResidualBasedStabilisation>(1, 1, JumpConstants{convective, pressure, divergence});
-}
-
 }  // namespace
 
 void declare_stabilisations(Registry& registry) {
-  registry.add<Stabilisation>(
-      "fluid_stabilisation", "cip", InteriorPenaltyStabilisation::schema(),
-      [](const Parameters& p, const Registry&) { return std::make_unique<InteriorPenaltyStabilisation>(p); });
-  registry.add<Stabilisation>(
-      "fluid_stabilisation", "residual", ResidualBasedStabilisation::schema(),
-      [](const Parameters& p, const Registry&) { return std::make_unique<ResidualBasedStabilisation>(p); });
-  registry.add<Stabilisation>(
-      "fluid_stabilisation", "thesis",
-      Schema("The set of numbers of the thesis, which stays when defaults change: `residual` with momentum "
-             "1, volume "
-             "1, pressure 0.05, convective 0.05, divergence 5e-5."),
-      [](const Parameters&, const Registry&) { return stabilisation_of_the_thesis(); });
+  const auto add = [&](const std::string& name, const Schema& schema, const auto& make) {
+    registry.add<Stabilisation>(
+        "fluid_stabilisation", name, schema,
+        [make](const Parameters& p, const Registry&) -> std::unique_ptr<Stabilisation> { return make(p); });
+  };
+  add("cip", InteriorPenaltyStabilisation::schema(), [](const Parameters& p) {
+    return std::make_unique<InteriorPenaltyStabilisation>(jump_constants(p));
+  });
+  add("residual", ResidualBasedStabilisation::schema(), [](const Parameters& p) {
+    return std::make_unique<ResidualBasedStabilisation>(p.number("momentum"), p.number("volume"),
+                                                        jump_constants(p));
+  });
+  const std::string numbers =
+      "convective 0.05, pressure 0.05, divergence 5e-5, length diameter; stays when defaults change.";
+  add("thesis", Schema("Interior penalty as in the thesis: `cip` with " + numbers), [](const Parameters&) {
+    return std::make_unique<InteriorPenaltyStabilisation>(jumps_of_the_thesis);
+  });
+  add("residual_thesis", Schema("`residual` with the thesis' numbers: momentum 1, volume 1, " + numbers),
+      [](const Parameters&) {
+        return std::make_unique<ResidualBasedStabilisation>(1.0, 1.0, jumps_of_the_thesis);
+      });
 }
 
 }  // namespace seam::fluid

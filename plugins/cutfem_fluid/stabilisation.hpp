@@ -23,7 +23,7 @@ class Stabilisation {
                    const std::vector<Expression>& body_force) const = 0;
 };
 
-/// Registers `cip`, `residual` and `thesis`.
+/// Registers `cip`, `residual`, `thesis` and `residual_thesis`.
 void declare_stabilisations(Registry& registry);
 
 }  // namespace seam::fluid

@@ -154,7 +154,7 @@ title: A box of fluid that is shaken
 dimension: 2
 plugins: [cutfem_fluid]
 meshes: {box: {grid: {from: [0, 0], to: [2, 1], cells: [1, 1]}}}
-fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: [x_min, x_max, y_min, y_max], velocity: ["0.3*cos(t)", "0.1*t^2"]}]}}
+fields: {water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, boundary: [{on: [x_min, x_max, y_min, y_max], velocity: ["0.3*cos(t)", "0.1*t^2"]}]}}
 output:
   fields: false
   probes:

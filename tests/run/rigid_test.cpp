@@ -642,7 +642,7 @@ meshes:
   box: {grid: {from: [0, 0], to: [2, 1], cells: [20, 10]}}
   disc: {grid: {from: [-1, -1], to: [1, 1], cells: [4, 4], map: ["0.7 + 0.15*x*sqrt(1 - y^2/2)", "0.55 + 0.15*y*sqrt(1 - x^2/2)"]}}
 fields:
-  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: x_min, velocity: ["4*y*(1 - y)", 0]}, {on: [y_min, y_max], velocity: [0, 0]}, {on: x_max, outflow: do_nothing}]}
+  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, boundary: [{on: x_min, velocity: ["4*y*(1 - y)", 0]}, {on: [y_min, y_max], velocity: [0, 0]}, {on: x_max, outflow: do_nothing}]}
   disc: {type: rigid_body, mesh: disc, stiffness: [20, 30], rotational_stiffness: 2}
   skin: {type: rigid_surface, mesh: disc}
 constraints: [{type: rigid, field: skin, body: disc}]
@@ -682,7 +682,7 @@ meshes:
   box: {grid: {from: [0, 0], to: [2, 1], cells: [12, 6]}}
   disc: {grid: {from: [-1, -1], to: [1, 1], cells: [4, 4], map: ["0.7 + 0.15*x*sqrt(1 - y^2/2)", "0.55 + 0.15*y*sqrt(1 - x^2/2)"]}}
 fields:
-  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, stabilisation: thesis, boundary: [{on: x_min, velocity: ["4*y*(1 - y)", 0]}, {on: [y_min, y_max], velocity: [0, 0]}, {on: x_max, outflow: do_nothing}]}
+  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 0.1, boundary: [{on: x_min, velocity: ["4*y*(1 - y)", 0]}, {on: [y_min, y_max], velocity: [0, 0]}, {on: x_max, outflow: do_nothing}]}
   disc: {type: rigid_body, mesh: disc, rotational_stiffness: 2}
   skin: {type: rigid_surface, mesh: disc}
 constraints:

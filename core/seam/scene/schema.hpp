@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -8,6 +9,7 @@
 
 namespace seam {
 
+class Parameters;
 class Schema;
 
 /// What a value in a scene is.
@@ -39,6 +41,8 @@ struct Parameter {
   std::string unit_text;
   bool required = true;
   std::string default_text;  ///< as it would be written in YAML; "" when there is none
+  /// The default where it depends on keys declared before this one; `default_text` then says how.
+  std::function<std::string(const Parameters& before)> default_by;
   double minimum = -std::numeric_limits<double>::infinity();
   double maximum = std::numeric_limits<double>::infinity();
   bool minimum_excluded = false;
@@ -63,6 +67,14 @@ struct Parameter {
     required = false;
     default_text = value;
     return *this;
+  }
+  /// Makes the key optional with a value that depends on keys of the same object, declared before this one.
+  /// @param rule how, for `seam explain`
+  /// @param value as written in YAML; a key that has a mistake is missing in what it is given
+  Parameter& otherwise(const std::string& rule,
+                       std::function<std::string(const Parameters& before)> value) {
+    default_by = std::move(value);
+    return otherwise(rule);
   }
   /// Makes the key optional without a value: ask Parameters::has.
   Parameter& optional() {

@@ -129,7 +129,7 @@ class Validator {
       error(node, fmt::format("{} needs the key '{}': {}{} ({})", called(path), p.name,
                               describe(p, context_.dimension), unit, p.help));
     } else if (!p.default_text.empty()) {
-      YamlNode standard = parse_yaml(p.default_text, "default");
+      YamlNode standard = parse_yaml(p.default_by ? p.default_by(result) : p.default_text, "default");
       place_at(standard, node);
       if (std::optional<Value> v = value(standard, p, join(path, p.name))) {
         v->where = node.where();
