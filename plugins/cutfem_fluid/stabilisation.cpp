@@ -57,7 +57,7 @@ class ResidualBasedStabilisation final : public Stabilisation {
       : momentum_(momentum), divergence_(divergence), constants_(constants) {}
   static Schema schema() {
     Schema s("SUPG, PSPG and grad-div in uncut cells, interior penalty around cut ones; for order 1.");
-    s.number("momentum", "Factor of tau_M (SUPG, PSPG)").otherwise("1").above(0);
+    s.number("momentum", "Factor of tau_M (SUPG, PSPG)").otherwise("0.5").above(0);
     s.number("volume", "Factor of tau_C (grad-div)").otherwise("1").at_least(0);
     declare_jump_constants(s);
     return s;

@@ -48,7 +48,7 @@ TEST_CASE("the default is residual-based of order 1, interior penalty of order 2
   };
   CHECK(results("1", "") ==
         results("1",
-                "{type: residual, momentum: 1, volume: 1, pressure: 0.05, convective: 0.005, divergence: "
+                "{type: residual, momentum: 0.5, volume: 1, pressure: 0.05, convective: 0.005, divergence: "
                 "5e-5, length: across}"));
   CHECK(results("2", "") ==
         results("2",
