@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the direct solver solves, the iterative one solves as well, or says by name what it cannot.
+#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "scene_run.hpp"
 
@@ -79,6 +82,60 @@ TEST_CASE("each field may have an inverse of its own, and one that is not there 
   CAPTURE(done.output);
   CHECK(done.code != 0);
   CHECK_THAT(done.output, Catch::Contains("there is no field 'watre'"));
+}
+
+TEST_CASE("parts that only ties hold are solved by the iterative solver as by the direct one") {
+  // Of the block, whose equations are enough for multigrid, both ends are tied: to what is held and to what
+  // is loose itself.
+  const auto run = [](const std::string& time, const std::string& linear, const std::string& ranks = "") {
+    Run made(R"yaml(
+title: A base, a block on it and a lid that only ties hold
+dimension: 2
+plugins: [solid]
+meshes:
+  base: {grid: {from: [0, 0], to: [1, 1], cells: [4, 4]}}
+  block: {grid: {from: [0, 1], to: [1, 2], cells: [20, 20]}}
+  lid: {grid: {from: [0, 2], to: [1, 3], cells: [4, 4]}}
+fields:
+  base: {type: solid, mesh: base, density: 1, material: {type: neo_hookean, young: 100, poisson: 0.3}, boundary: [{on: y_min, displacement: [0, 0]}]}
+  block: {type: solid, mesh: block, density: 1, material: {type: neo_hookean, young: 1000, poisson: 0.3}}
+  lid: {type: solid, mesh: lid, density: 1, material: {type: neo_hookean, young: 20, poisson: 0.3}, boundary: [{on: y_max, traction: ["0.5*t", "-0.2*t"]}]}
+constraints:
+  - {type: tied, fields: [block, base], boundaries: [y_min, y_max]}
+  - {type: tied, fields: [block, lid], boundaries: [y_max, y_min]}
+output:
+  fields: false
+  probes:
+    top: {field: lid, at: [1, 3], quantity: displacement}
+    seam: {field: block, at: [0.5, 1], quantity: displacement}
+    force: {field: base, on: y_min, quantity: reaction}
+time: {)yaml" + time +
+                 "}\nsolver: {newton: {tolerance: 1e-11}, linear: " + linear + "}\n",
+             "--quiet", ranks);
+    CAPTURE(time, linear, ranks, made.done.output);
+    REQUIRE(made.done.code == 0);
+    const auto results = nlohmann::json::parse(made.folder.read("out/summary.json")).at("results");
+    // Each linear system is solved to the end: the iterations of Newton's method are those of `direct`.
+    return std::tuple(made.folder.read("out/series.csv"), results.at("newton.iterations.most").get<int>(),
+                      results.at("linear.iterations.most").get<int>());
+  };
+  const auto check = [&](const std::string& time, const std::vector<std::array<std::string, 2>>& solved) {
+    const auto [direct, newton, none] = run(time, "direct");
+    CHECK(std::abs(column(direct, "top.x").back()) > 5e-4);
+    CHECK(none == 0);
+    CHECK(newton <= 6);
+    for (const auto& [inverse, ranks] : solved) {
+      const auto [found, iterations, linear] =
+          run(time, "{type: krylov, tolerance: 1e-9, preconditioner: " + inverse + "}", ranks);
+      CAPTURE(time, inverse, ranks, linear);
+      CHECK(difference(direct, found, 1e-3) < 1e-9);
+      CHECK(iterations == newton);
+      CHECK(linear > 10);
+      CHECK(linear < 90);
+    }
+  };
+  check("static: true, end: 1", {{"schur", ""}, {"ilu", ""}, {"schur", "mpirun --oversubscribe -np 2"}});
+  check("theta: 0.5, end: 0.1, step: {initial: 0.1}", {{"schur", ""}});
 }
 
 TEST_CASE("a preconditioner that was made for the rates at the start is not kept where it does not do") {

@@ -91,6 +91,55 @@ TEST_CASE("a disc touches a slope alike on all numbers of ranks, and after a res
   CHECK(difference(one.csv, folder.read("out/series.csv"), 1e-6) < 1e-8);
 }
 
+TEST_CASE("a chain lands on a slope alike on all numbers of ranks") {
+  // The block lands flat; the arm behind it comes near the slope, and what is tied to it near other ranks.
+  const auto series = [](const std::string& ranks) {
+    const Run run(R"yaml(
+title: Two blocks on a hinge fall onto a slope
+dimension: 2
+plugins: [solid, nitsche_fsci]
+parameters: {alpha: pi/9, gap: 0.002, c: cos(alpha), s: sin(alpha)}
+meshes:
+  block: {grid: {from: [0, 0], to: [0.4, 0.2], cells: [4, 2], map: ["c*x + s*(y + gap)", "-s*x + c*(y + gap)"]}}
+  arm: {grid: {from: [0.4, 0.1], to: [0.7, 0.2], cells: [4, 2], map: ["c*x + s*(y + gap)", "-s*x + c*(y + gap)"]}}
+fields:
+  block: {type: rigid_body, mesh: block, density: 100, body_force: [0, -9.81]}
+  skin: {type: rigid_surface, mesh: block}
+  arm: {type: rigid_body, mesh: arm, density: 100, body_force: [0, -9.81]}
+  arm_skin: {type: rigid_surface, mesh: arm}
+constraints:
+  - {type: rigid, field: skin, body: block}
+  - {type: rigid, field: arm_skin, body: arm}
+  - {type: joint, kind: hinge, body: arm, to: block, at: ["c*0.4 + s*(0.15 + gap)", "-s*0.4 + c*(0.15 + gap)"]}
+interfaces:
+  floor: {type: obstacle, from: skin, body: {type: box, from: [-1, -1], to: [4, 0]}, motion: {rotation: -alpha}, reach: 0.1, depth: 0.05}
+  arm_floor: {type: obstacle, from: arm_skin, body: {type: box, from: [-1, -1], to: [4, 0]}, motion: {rotation: -alpha}, reach: 0.1, depth: 0.05}
+coupling:
+  - {type: contact, on: floor, surface_stiffness: 1e5}
+  - {type: contact, on: arm_floor, surface_stiffness: 1e5}
+time: {theta: 0.5, end: 0.04, step: {initial: 0.004}}
+solver: {newton: {tolerance: 1e-11}}
+output:
+  fields: false
+  probes:
+    middle: {field: block, quantity: translation}
+    angle: {field: block, quantity: rotation}
+    arm_angle: {field: arm, quantity: rotation}
+)yaml",
+                  "--quiet", ranks);
+    CAPTURE(ranks, run.done.output);
+    REQUIRE(run.done.code == 0);
+    const std::vector<double> area = run.series("floor.area");
+    CHECK(*std::ranges::max_element(area) == Approx(0.4));
+    CHECK(run.series("arm_floor.gap").front() > 1);
+    CHECK(run.series("arm_floor.gap").back() < 0.1);
+    return run.folder.read("out/series.csv");
+  };
+  const std::string one = series("");
+  for (const std::string ranks : {"2", "3"})
+    CHECK(difference(one, series("mpirun --oversubscribe -np " + ranks)) < 1e-10);
+}
+
 TEST_CASE("a ball falls through a fluid onto a wall, which then carries its weight", "[study]") {
   const ShippedRun run("fsi/falling_ball", unchecked +
                                                "--set parameters.n=2 --set parameters.gap=0.01 "

@@ -150,17 +150,27 @@ void Assembler::begin_momentum(const TimePoint& at) {
   if (!has_turning_ties_) return;
   local_momentum_.assign(local_residual_.size(), 0.0);
   local_momentum_rate_.assign(local_residual_.size(), 0.0);
+  std::vector<double> whose(local_residual_.size(), 0.0);
+  // By elements, as momenta: what is tied beside these need not be known to the rank that it is tied to.
+  const auto tell_whose = [&](int node) {
+    if (node < 0 || !node_has_relations_[node]) return;
+    const int first = graph_.node(node).first;
+    for (int u = first; u < first + graph_.node(node).size; ++u) {
+      if (relation_[u] < 0) continue;
+      const Tie& tie = ties_[relation_[u]];
+      if (tie.changes.empty() || is_given(tie)) continue;
+      for (const Tie::To& to : tie.to) whose[to.to.unknown] += number_of(tie.key);
+    }
+  };
   together(communicator_, [&] {
     for (Group& group : groups_)
       for (int e = 0; group.evaluator->has_inertia() && e < group.domain->size(); ++e) {
         find_element_nodes(group, e);
-        if (element_turns()) assemble_momentum(group, e, at, false);
+        if (!element_turns()) continue;
+        assemble_momentum(group, e, at, false);
+        std::ranges::for_each(element_nodes_, tell_whose);
       }
   });
-  std::vector<double> whose(local_residual_.size(), 0.0);
-  for (const Tie& tie : ties_)
-    for (const Tie::To& to : tie.to)
-      if (!tie.changes.empty() && tie.tied.unknown < matrix_.rows) whose[to.to.unknown] += number_of(tie.key);
   for (auto* vector : {&local_momentum_, &local_momentum_rate_, &whose}) graph_.collect_vector(*vector);
   const std::vector<double> turned = turned_on(local_momentum_);
   for (std::size_t u = 0; u < turned.size(); ++u) local_momentum_rate_[u] += turned[u];
