@@ -60,7 +60,7 @@ std::unique_ptr<Problem> make_flow(const Box& box, const std::string& yaml,
 
 void march(Problem& problem, double end, int steps, double theta) {
   MumpsSolver solver;
-  Newton newton(problem, solver, {1e-10, 1e-5, 25, true});
+  Newton newton(problem, solver, {1e-12, 1e-5, 25, true});
   problem.initialise(0, steps > 0);
   for (int k = 1; k <= std::max(steps, 1); ++k) {
     const TimePoint at = steps > 0 ? time_point(end * k / steps, end / steps, theta) : time_point(end, 0, 1);
