@@ -54,9 +54,10 @@ Fluid::Fluid(const Parameters& p, const Registry& registry)
                 fmt::format("`{}` is consistent up to order {}; `order: {}` needs `cip`",
                             p.object("stabilisation").type(), stabilisation_->highest_order(), order_));
   if (on_mesh_.moves && !stabilisation_->follows_mesh())
-    throw Error(p.where("stabilisation"),
-                fmt::format("found `{}`, expected `residual`{}: penalties on jumps do not follow a moving mesh",
-                            p.object("stabilisation").type(), order_ > 1 ? " and `order: 1`" : ""));
+    throw Error(
+        p.where("stabilisation"),
+        fmt::format("found `{}`, expected `residual`{}: penalties on jumps do not follow a moving mesh",
+                    p.object("stabilisation").type(), order_ > 1 ? " and `order: 1`" : ""));
 }
 
 std::vector<Unknown> Fluid::unknowns(int dimension) const {

@@ -88,18 +88,16 @@ void declare_stabilisations(Registry& registry) {
         "fluid_stabilisation", name, schema,
         [make](const Parameters& p, const Registry&) -> std::unique_ptr<Stabilisation> { return make(p); });
   };
-  add("cip", InteriorPenaltyStabilisation::schema(), [](const Parameters& p) {
-    return std::make_unique<InteriorPenaltyStabilisation>(jump_constants(p));
-  });
+  add("cip", InteriorPenaltyStabilisation::schema(),
+      [](const Parameters& p) { return std::make_unique<InteriorPenaltyStabilisation>(jump_constants(p)); });
   add("residual", ResidualBasedStabilisation::schema(), [](const Parameters& p) {
     return std::make_unique<ResidualBasedStabilisation>(p.number("momentum"), p.number("volume"),
                                                         jump_constants(p));
   });
   const std::string numbers =
       "convective 0.05, pressure 0.05, divergence 5e-5, length diameter; stays when defaults change.";
-  add("thesis", Schema("Interior penalty as in the thesis: `cip` with " + numbers), [](const Parameters&) {
-    return std::make_unique<InteriorPenaltyStabilisation>(jumps_of_the_thesis);
-  });
+  add("thesis", Schema("Interior penalty as in the thesis: `cip` with " + numbers),
+      [](const Parameters&) { return std::make_unique<InteriorPenaltyStabilisation>(jumps_of_the_thesis); });
   add("residual_thesis", Schema("`residual` with the thesis' numbers: momentum 1, volume 1, " + numbers),
       [](const Parameters&) {
         return std::make_unique<ResidualBasedStabilisation>(1.0, 1.0, jumps_of_the_thesis);

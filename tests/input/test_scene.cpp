@@ -265,3 +265,34 @@ TEST_CASE("schema, explanation and list of types come from the declarations") {
   CHECK_THAT(schema, Contains("\"#/definitions/field\"") && Contains("\"field.bar\"") &&
                          Contains("mass per volume [kg/m^3] (default: 1)"));
 }
+
+TEST_CASE("a default may follow from a key declared before it, and is explained as a rule") {
+  Registry registry;
+  register_test_types(registry);
+  Schema film("A film.");
+  film.integer("order", "of its unknowns").at_least(1).at_most(2).otherwise("1");
+  film.typed("material", "how it deforms", "material")
+      .otherwise("`rigid` of order 1, steel of order 2", [](const Parameters& before) {
+        return before.has("order") && before.integer("order") == 2 ? "{type: steel, young: 7}" : "rigid";
+      });
+  registry.add<Thing>("field", "film", film,
+                      [](const Parameters&, const Registry&) { return std::make_unique<Thing>(); });
+  PluginHost host({});
+  const auto read = [&](const std::string& order) {
+    return parse_scene_text(
+        "title: A film\ndimension: 2\nplugins: []\nmeshes: {}\nfields: {a: {type: film, order: " + order +
+            "}}\n",
+        "scene.yaml", {}, host, registry);
+  };
+  const auto material = [&](const Scene& scene) {
+    return scene.root.map("fields")[0].second.object("material");
+  };
+  CHECK(material(read("1")).type() == "rigid");
+  const Scene stiff = read("2");
+  CHECK(material(stiff).number("young") == 7);
+  CHECK_FALSE(stiff.root.map("fields")[0].second.given("material"));
+  // A mistake in the key that the rule asks for is told as such, and nothing beside it.
+  CHECK_THROWS_WITH(read("3"), Contains("fields.a.order") && !Contains("material"));
+  CHECK_THAT(explain(*registry.find("field", "film"), registry),
+             Contains("(default `rigid` of order 1, steel of order 2)"));
+}

@@ -3,7 +3,6 @@
 #include "scene_run.hpp"
 
 using namespace seam_cli_test;
-using Catch::Matchers::Contains;
 
 namespace {
 
@@ -86,18 +85,4 @@ TEST_CASE("by default a cavity of 32 x 32 cells is within 2 % from rest") {
   CHECK(last(run, "low") == Approx(-0.3885698).epsilon(0.02));
   CHECK(last(run, "left") == Approx(0.3769447).epsilon(0.02));
   CHECK(last(run, "right") == Approx(-0.5270771).epsilon(0.02));
-}
-
-TEST_CASE("what the default is follows the order, and is printed") {
-  CHECK_THAT(seam("explain cutfem_fluid").output,
-             Contains("stabilisation") && Contains("(default `residual` of order 1, `cip` of order 2)"));
-  Folder folder;
-  const auto resolved = [&](const std::string& options) {
-    return seam("check " + folder.file("scene.yaml", cavity) + " --resolved" + options).output;
-  };
-  CHECK_THAT(resolved(""), Contains("fields.water.stabilisation.type: residual") &&
-                               Contains("fields.water.stabilisation.momentum: 0.5"));
-  CHECK_THAT(resolved(" --set fields.water.order=2"), Contains("fields.water.stabilisation.type: cip"));
-  // A mistake in the key that the rule asks for is told as such.
-  CHECK_THAT(resolved(" --set fields.water.order=two"), Contains("fields.water.order"));
 }

@@ -71,8 +71,7 @@ struct Parameter {
   /// Makes the key optional with a value that depends on keys of the same object, declared before this one.
   /// @param rule how, for `seam explain`
   /// @param value as written in YAML; a key that has a mistake is missing in what it is given
-  Parameter& otherwise(const std::string& rule,
-                       std::function<std::string(const Parameters& before)> value) {
+  Parameter& otherwise(const std::string& rule, std::function<std::string(const Parameters& before)> value) {
     default_by = std::move(value);
     return otherwise(rule);
   }
