@@ -51,8 +51,7 @@ TEST_CASE("the default is residual-based of order 1, interior penalty of order 2
                 "{type: residual, momentum: 0.5, volume: 1, pressure: 0.05, convective: 0.005, divergence: "
                 "5e-5, length: across}"));
   CHECK(results("2", "") ==
-        results("2",
-                "{type: cip, pressure: 0.05, convective: 0.005, divergence: 5e-5, length: across}"));
+        results("2", "{type: cip, pressure: 0.05, convective: 0.005, divergence: 5e-5, length: across}"));
 }
 
 TEST_CASE("linear shear past a moving block is exact, on any position of the cut") {
