@@ -47,7 +47,7 @@ output:
 TEST_CASE("so does a ball", "[study]") { ShippedRun("fsi/turning_ball", "--set parameters.n=6"); }
 
 TEST_CASE("a disc between walls takes Faxen's force", "[study]") {
-  const ShippedRun shipped("fsi/towed_disc", "--set parameters.n=15");
+  const ShippedRun shipped("fsi/towed_disc");
   // At order 1 the error falls with the cells.
   const auto speed = [](const std::string& options) {
     return ShippedRun("fsi/towed_disc", unchecked + "--set parameters.order=1 " + options)("speed");
