@@ -25,7 +25,7 @@ JumpConstants jump_constants(const Parameters& parameters) {
           across ? JumpLength::across : JumpLength::diameter};
 }
 
-/// What the computations of the thesis use, pages 73 and 77.
+/// Constants and length beside (2.118).
 constexpr JumpConstants jumps_of_the_thesis{
     .convective = 0.05, .pressure = 0.05, .divergence = 5e-5, .length = JumpLength::diameter};
 
