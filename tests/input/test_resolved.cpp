@@ -58,7 +58,7 @@ std::string with_default_density(const std::string& value) {
   Registry registry;
   registry.add<Thing>("field", "bar", schema,
                       [](const Parameters&, const Registry&) { return std::make_unique<Thing>(); });
-  registry.add<Thing>("linear_solver", "direct", Schema("A factorisation."),
+  registry.add<Thing>("linear_solver", "auto", Schema("A factorisation."),
                       [](const Parameters&, const Registry&) { return std::make_unique<Thing>(); });
   PluginHost host({});
   const Scene scene = parse_scene_text(
@@ -83,7 +83,7 @@ TEST_CASE("a resolved scene has every value in one spelling, defaults filled in"
   CHECK(values.at("meshes.box.grid.cells") == "[4, 4]");
   CHECK(values.at("coupling.0.penalty") == "100");
   CHECK(values.at("solver.newton.tolerance") == "1e-08");
-  CHECK(values.at("solver.linear.type") == "direct");
+  CHECK(values.at("solver.linear.type") == "auto");
   CHECK(values.at("time.static") == "true");
   CHECK(values.at("time.end") == "1");
   CHECK(values.at("output.probes.pull.on") == "[x_max]");
@@ -111,7 +111,7 @@ TEST_CASE("what does not decide what is computed leaves the checksum as it is") 
       {"a default of a coupling", "{type: glue, on: seam}", "{type: glue, on: seam, penalty: 1e2}"},
       {"a type as an object", "material: rigid", "material: {type: rigid}"},
       {"defaults of the solver",
-       "output:", "solver: {newton: {tolerance: 1e-8, damping: true}, linear: direct}\noutput:"},
+       "output:", "solver: {newton: {tolerance: 1e-8, damping: true}, linear: auto}\noutput:"},
       {"the time that a static scene has", "output:", "time: {static: true, end: 1, theta: 1}\noutput:"},
       {"order of maps", "  right:\n    type: bar\n    mesh: other\n    material: rigid\n",
        "  right: {material: rigid, mesh: other, type: bar}\n"},

@@ -49,7 +49,7 @@ TEST_CASE("a scene becomes values, with defaults filled in") {
   CHECK_FALSE(fixed.component_given("displacement", 1));
   CHECK(scene.root.map("fields")[1].second.object("material").type() == "rigid");
   CHECK(scene.root.object("solver").object("newton").integer("maximum_iterations") == 25);
-  CHECK(scene.root.object("solver").object("linear").type() == "direct");
+  CHECK(scene.root.object("solver").object("linear").type() == "auto");
   CHECK_FALSE(scene.root.has("time"));
   CHECK(scene.root.object("study").map("vary")[0].second.names("values") ==
         std::vector<std::string>{"1/4", "1/8"});

@@ -68,7 +68,7 @@ void register_test_types(Registry& registry) {
   add(registry, "material", "rigid", Schema("Does not deform."));
   add(registry, "interface", "tie", tie_schema());
   add(registry, "coupling", "glue", glue_schema());
-  add(registry, "linear_solver", "direct", Schema("A factorisation."));
+  add(registry, "linear_solver", "auto", Schema("A factorisation."));
 }
 
 }  // namespace seam_test

@@ -77,6 +77,11 @@ TEST_CASE("check estimates memory and the seconds of a step") {
   CHECK(growth < 10 * unknowns);
   CHECK(fine["includes_linear_solves"] == true);
   CHECK(check(scene + " --set solver.linear=krylov")["includes_linear_solves"] == false);
+  // What solves is chosen by that, too.
+  CHECK_THAT(fine["linear_solver"].get<std::string>(), Catch::StartsWith("direct: "));
+  const nlohmann::json space = check(config("fluid/sphere") + " --set solver.linear=auto");
+  CHECK_THAT(space["linear_solver"].get<std::string>(), Catch::StartsWith("krylov: "));
+  CHECK(space["includes_linear_solves"] == false);
 }
 
 TEST_CASE("what is prescribed is a number, and --set knows the scene's parameters") {

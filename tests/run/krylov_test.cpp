@@ -47,6 +47,7 @@ TEST_CASE("at ten thousand unknowns the iterative solver finds what the direct o
   agree("poro/waves", "--set parameters.n=44", {"block.fluid_volume", "block.volume"});
   agree("poro/waves", "--set parameters.n=24 --set parameters.order=2",
         {"block.fluid_volume", "block.volume"});
+  agree("fluid/duct", "--set parameters.n=2", {"drag_coefficient", "lift_coefficient", "pressure_drop"});
   agree("fluid/patch_vortices", "--set parameters.n=50 --set time.end=0.02",
         {"patch.kinetic_energy", "patch.dissipation", "water.kinetic_energy"});
 }

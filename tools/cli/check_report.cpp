@@ -88,6 +88,7 @@ nlohmann::json describe_contents(const Registry& registry, Session& session) {
   contents["memory_bytes"] = cost.bytes;
   contents["seconds_per_step"] = cost.seconds_per_step;
   contents["includes_linear_solves"] = cost.has_linear;
+  contents["linear_solver"] = session.linear_choice();
   return contents;
 }
 
@@ -106,6 +107,8 @@ std::string contents_as_text(const nlohmann::json& contents) {
                       contents["unknowns"].get<long long>(), contents["memory_bytes"].get<double>() / 1e6,
                       contents["seconds_per_step"].get<double>(), CostEstimate::iterations,
                       all ? "" : ", without what the linear solver takes");
+  if (const std::string choice = contents["linear_solver"]; !choice.empty())
+    text += fmt::format("solved by {}\n", choice);
   return text;
 }
 

@@ -21,6 +21,7 @@ void report(const SceneOutcome& outcome) {
       "output {:.2f}; {:.0f} MB\n",
       outcome.unknowns, t.total, t.setup, t.cut, t.pattern, t.assembly, t.linear, t.output,
       outcome.peak_memory / 1e6);
+  if (!outcome.linear_choice.empty()) fmt::print("  solved by {}\n", outcome.linear_choice);
   fmt::print("  results: {}\n", outcome.folder.string());
   if (!outcome.picture.empty()) fmt::print("  picture: {}\n", outcome.picture.string());
 }

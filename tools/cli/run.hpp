@@ -37,7 +37,8 @@ struct SceneOutcome {
   std::filesystem::path picture;  ///< empty when none was made
   Timings timings;
   long long unknowns = 0;
-  double peak_memory = 0;  ///< bytes, over all ranks
+  double peak_memory = 0;     ///< bytes, over all ranks
+  std::string linear_choice;  ///< which linear solver was chosen, and why; empty: the scene says which
   long steps = 0;
   double time = 0;                           ///< of the last state, s
   std::optional<Interruption> interruption;  ///< when the run did not reach its end; then nothing is checked

@@ -206,6 +206,7 @@ SceneOutcome run_scene(const SceneRun& run) {
   if (!run.stop_after && !outcome.interruption)
     outcome.checks = judge(simulation, scene, outcome.results, folder, communicator);
   outcome.timings = simulation.timings();
+  outcome.linear_choice = simulation.session().linear_choice();
   outcome.unknowns = simulation.session().unknowns();
   outcome.steps = simulation.session().state().step_number;
   outcome.time = simulation.session().state().time;

@@ -42,4 +42,6 @@ double peak_memory() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+double machine_memory() { return bytes_of("/proc/meminfo", "MemTotal"); }
+
 }  // namespace seam

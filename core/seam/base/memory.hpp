@@ -23,6 +23,9 @@ std::string describe_lack_of_memory(const std::string& what);
 /// Largest resident memory of this process so far, bytes.
 double peak_memory();
 
+/// Of the machine, bytes; 0 where it does not say.
+double machine_memory();
+
 /// Calls `work`; where it lacks memory, says for what. @param where in the scene
 template <class Work>
 auto needing_memory(const std::string& what, const Location& where, Work&& work) {

@@ -32,7 +32,10 @@ KrylovSolver::KrylovSolver(const Parameters& p, const Registry& registry)
 
 KrylovSolver::~KrylovSolver() = default;
 
-void KrylovSolver::forget() { preconditioner_.reset(); }
+void KrylovSolver::forget() {
+  preconditioner_.reset();
+  more_fill_ = 0;
+}
 
 Schema KrylovSolver::schema() {
   Schema s(
@@ -56,7 +59,13 @@ Schema KrylovSolver::schema() {
 
 std::unique_ptr<BlockInverse> KrylovSolver::make_inverse(const EquationBlock& block) const {
   const auto own = std::ranges::find(inverse_of_, block.field, &std::pair<std::string, Parameters>::first);
-  return registry_->create<BlockInverse>("block_inverse", own == inverse_of_.end() ? inverse_ : own->second);
+  Parameters parameters = own == inverse_of_.end() ? inverse_ : own->second;
+  if (more_fill_ > 0 && parameters.has("fill")) {
+    Parameters::Value fill;
+    fill.data = parameters.integer("fill") + more_fill_;
+    parameters.set("fill", fill);
+  }
+  return registry_->create<BlockInverse>("block_inverse", parameters);
 }
 
 void KrylovSolver::require_fields(const std::vector<EquationBlock>& blocks) const {
@@ -90,15 +99,37 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
 void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
                                         const std::vector<double>& b, std::vector<double>& x,
                                         SolveReport& report) {
-  // One that is kept was made for another matrix, as that of rates at the start, which may be too far from
-  // this one.
+  // One that is kept was made for another matrix, as that of rates at the start or of the fluid at rest,
+  // which may be too far from this one: what it has found so far is where a new one begins.
   if (worth_keeping(a)) {
-    iterate(a, blocks, b, x, report);
-    if (leaves(a, b, x) <= acceptable_residual_) return;
-    forget();
-    x.assign(x.size(), 0.0);
+    const int enough = static_cast<int>(keep_ * preconditioner_->first_iterations) + 1;
+    iterate(a, blocks, b, x, std::min(enough, maximum_iterations_), report);
+    const double left = leaves(a, b, x);
+    if (left <= tolerance_ || (report.iterations < enough && left <= acceptable_residual_)) return;
+    preconditioner_.reset();
+    if (!(left < 1)) x.assign(x.size(), 0.0);
   }
-  iterate(a, blocks, b, x, report);
+  // Where a whole Krylov space has found next to nothing, the next one would not either.
+  constexpr double next_to_nothing = 1e-2;
+  double before = leaves(a, b, x);
+  int since_built = 0;
+  for (int most = maximum_iterations_; most > 0;) {
+    iterate(a, blocks, b, x, std::min(restart_, most), report);
+    const int taken = preconditioner_->last_iterations;
+    since_built += taken;
+    most -= taken;
+    const double left = leaves(a, b, x);
+    if (taken < restart_ || left <= tolerance_) break;
+    if (more_fill_ == 0 && !(left <= next_to_nothing * before)) {
+      ++more_fill_;
+      preconditioner_.reset();
+      if (!(left < before)) x.assign(x.size(), 0.0);
+      since_built = 0;
+    }
+    before = left;
+  }
+  if (preconditioner_)
+    preconditioner_->first_iterations = preconditioner_->last_iterations = std::max(1, since_built);
 }
 
 /// The relative residual.
@@ -114,7 +145,8 @@ double KrylovSolver::leaves(const Matrix& a, const std::vector<double>& b,
 }
 
 void KrylovSolver::iterate(const Matrix& a, const std::vector<EquationBlock>& blocks,
-                           const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
+                           const std::vector<double>& b, std::vector<double>& x, int most,
+                           SolveReport& report) {
   const Stopwatch watch;
   report.new_factorisation = !worth_keeping(a);
   // A view of its own for every solve: the same pattern may have been built anew, in other memory.
@@ -128,14 +160,14 @@ void KrylovSolver::iterate(const Matrix& a, const std::vector<EquationBlock>& bl
   } else {
     preconditioner_->apply->follow(matrix);
   }
-  report.setup_seconds = watch.seconds();
+  report.setup_seconds += watch.seconds();
 
-  report.iterations =
-      gmres(matrix, preconditioner_->apply, weights(), b, x, {tolerance_, maximum_iterations_, restart_});
+  const int iterations = gmres(matrix, preconditioner_->apply, weights(), b, x, {tolerance_, most, restart_});
+  report.iterations += iterations;
   // The view would keep the matrix in memory while the next one is built.
   preconditioner_->apply->follow(Teuchos::null);
-  preconditioner_->last_iterations = report.iterations;
-  if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, report.iterations);
+  preconditioner_->last_iterations = iterations;
+  if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, iterations);
 }
 
 }  // namespace seam

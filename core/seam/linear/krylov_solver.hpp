@@ -37,7 +37,7 @@ class KrylovSolver final : public LinearSolver {
   void solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
                             const std::vector<double>& b, std::vector<double>& x, SolveReport& report);
   void iterate(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
-               std::vector<double>& x, SolveReport& report);
+               std::vector<double>& x, int most, SolveReport& report);
   [[nodiscard]] double leaves(const Matrix& a, const std::vector<double>& b,
                               const std::vector<double>& x) const;
   [[nodiscard]] std::unique_ptr<BlockInverse> make_inverse(const EquationBlock& block) const;
@@ -49,6 +49,7 @@ class KrylovSolver final : public LinearSolver {
   int maximum_iterations_;
   int restart_;
   double keep_;
+  int more_fill_ = 0;  ///< of incomplete factorisations, since those that the scene asks for did not do
   std::unique_ptr<Preconditioner> preconditioner_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "seam/base/stopwatch.hpp"
+#include "seam/linear/automatic_solver.hpp"
 #include "seam/linear/block_inverse.hpp"
 #include "seam/linear/equilibration.hpp"
 #include "seam/linear/krylov_solver.hpp"
@@ -40,6 +41,8 @@ SolveReport LinearSolver::solve(const Matrix& a, const std::vector<EquationBlock
   return report;
 }
 
+std::optional<LinearSolver::Effort> LinearSolver::effort(const Matrix&) { return std::nullopt; }
+
 double norm(const Communicator& communicator, const std::vector<double>& x) {
   double square = 0;
   for (const double v : x) square += v * v;
@@ -47,6 +50,9 @@ double norm(const Communicator& communicator, const std::vector<double>& x) {
 }
 
 void register_linear_solvers(Registry& registry) {
+  registry.add<LinearSolver>(
+      "linear_solver", "auto", AutomaticSolver::schema(),
+      [](const Parameters& p, const Registry& all) { return std::make_unique<AutomaticSolver>(p, all); });
   registry.add<LinearSolver>(
       "linear_solver", "direct", MumpsSolver::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<MumpsSolver>(p); });

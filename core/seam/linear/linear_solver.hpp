@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,14 @@ class LinearSolver {
                     std::vector<double>& x);
   /// Drops what is kept from one solve to the next: the next one is as if it were the first.
   virtual void forget() {}
+  /// What a factorisation takes, of all ranks.
+  struct Effort {
+    double bytes = 0, operations = 0;
+  };
+  /// What this will take for a matrix, where it can be known beforehand. Collective.
+  [[nodiscard]] virtual std::optional<Effort> effort(const Matrix& a);
+  /// Which solver one that chooses has chosen, and why; empty for all others.
+  [[nodiscard]] virtual std::string choice() const { return ""; }
 
  protected:
   virtual void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks,
@@ -63,7 +72,7 @@ void multiply(const Matrix& a, const std::vector<double>& x, std::vector<double>
 /// Euclidean norm over all ranks. Collective.
 double norm(const Communicator& communicator, const std::vector<double>& x);
 
-/// Registers "direct" and "krylov".
+/// Registers "auto", "direct" and "krylov".
 void register_linear_solvers(Registry& registry);
 
 }  // namespace seam

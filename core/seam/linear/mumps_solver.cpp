@@ -223,10 +223,10 @@ void MumpsSolver::refine(const Matrix& a, const std::vector<double>& b, std::vec
   }
 }
 
-MumpsSolver::Effort MumpsSolver::estimate(const Matrix& a) {
-  if (a.global_rows == 0) return {};
+std::optional<LinearSolver::Effort> MumpsSolver::effort(const Matrix& a) {
+  if (a.global_rows == 0) return Effort{};
   if (instance_->pattern_version != a.pattern_version) analyse(a);
-  return {1e6 * instance_->info(17), instance_->mumps.rinfog[0]};
+  return Effort{1e6 * instance_->info(17), instance_->mumps.rinfog[0]};
 }
 
 void MumpsSolver::forget() { instance_->factorised = false; }

@@ -20,12 +20,8 @@ class MumpsSolver final : public LinearSolver {
   static Schema schema();
   /// The analysis stays: it follows from the pattern alone.
   void forget() override;
-  /// What a factorisation takes, of all ranks.
-  struct Effort {
-    double bytes = 0, operations = 0;
-  };
-  /// By the symbolic analysis alone. Collective.
-  [[nodiscard]] Effort estimate(const Matrix& a);
+  /// By the symbolic analysis alone.
+  [[nodiscard]] std::optional<Effort> effort(const Matrix& a) override;
 
  protected:
   void solve_into(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,

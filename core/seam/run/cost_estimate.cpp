@@ -3,7 +3,6 @@
 
 #include "seam/assembly/assembler.hpp"
 #include "seam/base/memory.hpp"
-#include "seam/linear/mumps_solver.hpp"
 
 namespace seam {
 namespace {
@@ -20,14 +19,13 @@ CostEstimate estimate_cost(Problem& problem, LinearSolver& solver, double assemb
   CostEstimate cost;
   cost.bytes = communicator.sum(peak_memory());
   cost.seconds_per_step = (CostEstimate::iterations + 1) * communicator.max(assembly_seconds);
-  auto* direct = dynamic_cast<MumpsSolver*>(&solver);
-  cost.has_linear = direct != nullptr;
-  if (!direct) return cost;
   const Matrix& matrix = problem.assembler().matrix();
-  const MumpsSolver::Effort effort = direct->estimate(matrix);
-  cost.bytes += effort.bytes;
+  const std::optional<LinearSolver::Effort> effort = solver.effort(matrix);
+  cost.has_linear = effort.has_value();
+  if (!effort) return cost;
+  cost.bytes += effort->bytes;
   cost.seconds_per_step += CostEstimate::iterations / static_cast<double>(communicator.size()) *
-                           (effort.operations / operations_per_second +
+                           (effort->operations / operations_per_second +
                             seconds_per_unknown * static_cast<double>(matrix.global_rows));
   return cost;
 }

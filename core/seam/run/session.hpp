@@ -74,6 +74,8 @@ class Session {
   /// Spent in building, in linear solves and in observing, s.
   [[nodiscard]] double setup_seconds() const { return setup_seconds_; }
   [[nodiscard]] double linear_seconds() const { return linear_seconds_; }
+  /// See LinearSolver.
+  [[nodiscard]] std::string linear_choice() const { return linear_->choice(); }
   [[nodiscard]] double observing_seconds() const { return observing_seconds_; }
 
  private:

@@ -72,6 +72,7 @@ nlohmann::json Simulation::summary(const std::vector<CheckResult>& checks) {
   s["seconds"] = {{"setup", timings_.setup},       {"cut", timings_.cut},       {"pattern", timings_.pattern},
                   {"assembly", timings_.assembly}, {"linear", timings_.linear}, {"output", timings_.output},
                   {"total", timings_.total}};
+  if (const std::string choice = session_.linear_choice(); !choice.empty()) s["linear_solver"] = choice;
   s["peak_memory_bytes"] = communicator_.sum(peak_memory());
   s["newton"] = histories(session_.reports());
   s["results"] = nlohmann::json::object();

@@ -74,7 +74,7 @@ Schema solver_schema() {
 
   Schema schema("How the equations are solved.");
   schema.object("newton", "the nonlinear iteration", newton).otherwise("{}");
-  schema.typed("linear", "the linear solver", "linear_solver").otherwise("direct");
+  schema.typed("linear", "the linear solver", "linear_solver").otherwise("auto");
   return schema;
 }
 
