@@ -99,23 +99,15 @@ void KrylovSolver::solve_into(const Matrix& a, const std::vector<EquationBlock>&
 void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
                                         const std::vector<double>& b, std::vector<double>& x,
                                         SolveReport& report) {
-  // One that is kept was made for another matrix, as that of rates at the start or of the fluid at rest,
-  // which may be too far from this one: what it has found so far is where a new one begins.
-  if (worth_keeping(a)) {
-    const int enough = static_cast<int>(keep_ * preconditioner_->first_iterations) + 1;
-    iterate(a, blocks, b, x, std::min(enough, maximum_iterations_), report);
-    const double left = leaves(a, b, x);
-    if (left <= tolerance_ || (report.iterations < enough && left <= acceptable_residual_)) return;
-    preconditioner_.reset();
-    if (!(left < 1)) x.assign(x.size(), 0.0);
-  }
+  report.new_factorisation = false;
+  if (!worth_keeping(a)) preconditioner_.reset();
+  if (preconditioner_ && kept_one_does(a, blocks, b, x, report)) return;
   // Where a whole Krylov space has found next to nothing, the next one would not either.
   constexpr double next_to_nothing = 1e-2;
   double before = leaves(a, b, x);
   int since_built = 0;
   for (int most = maximum_iterations_; most > 0;) {
-    iterate(a, blocks, b, x, std::min(restart_, most), report);
-    const int taken = preconditioner_->last_iterations;
+    const int taken = iterate(a, blocks, b, x, std::min(restart_, most), report);
     since_built += taken;
     most -= taken;
     const double left = leaves(a, b, x);
@@ -132,6 +124,23 @@ void KrylovSolver::solve_preconditioned(const Matrix& a, const std::vector<Equat
     preconditioner_->first_iterations = preconditioner_->last_iterations = std::max(1, since_built);
 }
 
+/// It was made for another matrix, as that of rates at the start or of a fluid at rest, which may be too far
+/// from this one: then what it has found is where a new one begins.
+bool KrylovSolver::kept_one_does(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                                 const std::vector<double>& b, std::vector<double>& x, SolveReport& report) {
+  constexpr int cheaper_than_a_new_one = 10;
+  const int enough =
+      std::min(static_cast<int>(keep_ * preconditioner_->first_iterations) + cheaper_than_a_new_one,
+               maximum_iterations_);
+  const int taken = iterate(a, blocks, b, x, enough, report);
+  preconditioner_->last_iterations = taken;
+  const double left = leaves(a, b, x);
+  if (left <= tolerance_ || (taken < enough && left <= acceptable_residual_)) return true;
+  preconditioner_.reset();
+  if (!(left < 1)) x.assign(x.size(), 0.0);
+  return false;
+}
+
 /// The relative residual.
 double KrylovSolver::leaves(const Matrix& a, const std::vector<double>& b,
                             const std::vector<double>& x) const {
@@ -144,30 +153,27 @@ double KrylovSolver::leaves(const Matrix& a, const std::vector<double>& b,
   return norm(a.communicator, residual) / norm(a.communicator, size);
 }
 
-void KrylovSolver::iterate(const Matrix& a, const std::vector<EquationBlock>& blocks,
-                           const std::vector<double>& b, std::vector<double>& x, int most,
-                           SolveReport& report) {
+int KrylovSolver::iterate(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                          const std::vector<double>& b, std::vector<double>& x, int most,
+                          SolveReport& report) {
   const Stopwatch watch;
-  report.new_factorisation = !worth_keeping(a);
   // A view of its own for every solve: the same pattern may have been built anew, in other memory.
   const auto matrix = tpetra_view(a);
-  if (report.new_factorisation) {
-    preconditioner_.reset();  // two of them need never be in memory together
+  if (preconditioner_) {
+    preconditioner_->apply->follow(matrix);
+  } else {
+    report.new_factorisation = true;
     require_fields(blocks);
     auto inverse = Teuchos::rcp(new BlockGaussSeidel(
         matrix, a, blocks, [&](const EquationBlock& block) { return make_inverse(block); }));
     preconditioner_ = std::make_unique<Preconditioner>(Preconditioner{inverse, a.pattern_version});
-  } else {
-    preconditioner_->apply->follow(matrix);
   }
   report.setup_seconds += watch.seconds();
-
-  const int iterations = gmres(matrix, preconditioner_->apply, weights(), b, x, {tolerance_, most, restart_});
-  report.iterations += iterations;
+  const int taken = gmres(matrix, preconditioner_->apply, weights(), b, x, {tolerance_, most, restart_});
+  report.iterations += taken;
   // The view would keep the matrix in memory while the next one is built.
   preconditioner_->apply->follow(Teuchos::null);
-  preconditioner_->last_iterations = iterations;
-  if (report.new_factorisation) preconditioner_->first_iterations = std::max(1, iterations);
+  return taken;
 }
 
 }  // namespace seam

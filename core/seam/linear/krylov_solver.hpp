@@ -36,8 +36,11 @@ class KrylovSolver final : public LinearSolver {
   [[nodiscard]] bool worth_keeping(const Matrix& a) const;
   void solve_preconditioned(const Matrix& a, const std::vector<EquationBlock>& blocks,
                             const std::vector<double>& b, std::vector<double>& x, SolveReport& report);
-  void iterate(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
-               std::vector<double>& x, int most, SolveReport& report);
+  [[nodiscard]] bool kept_one_does(const Matrix& a, const std::vector<EquationBlock>& blocks,
+                                   const std::vector<double>& b, std::vector<double>& x, SolveReport& report);
+  /// @return iterations
+  int iterate(const Matrix& a, const std::vector<EquationBlock>& blocks, const std::vector<double>& b,
+              std::vector<double>& x, int most, SolveReport& report);
   [[nodiscard]] double leaves(const Matrix& a, const std::vector<double>& b,
                               const std::vector<double>& x) const;
   [[nodiscard]] std::unique_ptr<BlockInverse> make_inverse(const EquationBlock& block) const;
