@@ -56,7 +56,7 @@ void AutomaticSolver::take(bool factorises, const std::string& reason) {
     solver_ = registry_->create<LinearSolver>("linear_solver", factorises ? direct_ : iterative_);
   }
   factorises_ = factorises;
-  choice_ = fmt::format("{}: {}", (factorises ? direct_ : iterative_).type(), reason);
+  choice_ = reason.empty() ? "" : fmt::format("{}: {}", (factorises ? direct_ : iterative_).type(), reason);
 }
 
 /// By the symbolic analysis, which a factorisation keeps. Collective.

@@ -35,7 +35,7 @@ class AutomaticSolver final : public LinearSolver {
   void take(bool factorises, const std::string& reason);
   const Registry* registry_;
   Parameters direct_, iterative_;
-  std::unique_ptr<LinearSolver> solver_;  ///< null before the first system
+  std::unique_ptr<LinearSolver> solver_;  ///< that is used now
   bool factorises_ = true;                ///< whether solver_ is the direct one
   bool fits_ = true;                      ///< whether a factorisation would fit into memory
   long long rows_ = 0;                    ///< of the system that was chosen for
