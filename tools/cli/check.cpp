@@ -9,6 +9,7 @@
 #include "check_report.hpp"
 #include "command.hpp"
 #include "common.hpp"
+#include "matrix/plan.hpp"
 #include "seam/run/session.hpp"
 #include "seam/scene/resolved.hpp"
 
@@ -20,6 +21,7 @@ struct Options {
   std::string scene;
   std::vector<std::string> set;
   bool without_meshes = false;
+  bool without_matrix = false;
   bool json = false;
   bool resolved = false;
 };
@@ -51,6 +53,7 @@ Outcome check(const Options& options) {
   Registry registry = builtin_types();
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(options.scene, parse_overrides(options.set), host, registry);
+  if (!options.without_matrix && scene.root.has("matrix")) plan_matrix(options.scene, options.set);
   Outcome outcome;
   Diagnostics warnings = scene.warnings;
   if (!options.without_meshes) {
@@ -113,6 +116,8 @@ Command check_command(CommandLine& parent) {
   line.add_option("scene", options->scene, "YAML file").required();
   line.add_option("--set", options->set, "replace a value: key.key=value; may be repeated").take_all();
   line.add_flag("--without-meshes", options->without_meshes, "look at the text alone: nothing is built");
+  line.add_flag("--without-matrix", options->without_matrix, "do not look at the variants of `matrix`")
+      .hidden();
   line.add_flag("--json", options->json, "what is found as JSON, for editors and continuous integration");
   line.add_flag(
           "--resolved", options->resolved,

@@ -7,6 +7,7 @@
 #include "all_ranks.hpp"
 #include "seam/base/policy.hpp"
 #include "seam/run/interruption.hpp"
+#include "seam/scene/expression.hpp"
 
 namespace seam::cli {
 namespace {
@@ -26,14 +27,6 @@ void report(const SceneOutcome& outcome) {
   if (!outcome.picture.empty()) fmt::print("  picture: {}\n", outcome.picture.string());
 }
 
-void report_interruption(const SceneOutcome& outcome) {
-  fmt::print(
-      stderr,
-      "interrupted: {}. The state at t = {:.6g}, step {}, is in {}; the same command with --resume goes "
-      "on from it\n",
-      outcome.interruption->reason, outcome.time, outcome.steps, outcome.folder.string());
-}
-
 int run(const SceneRun& options, bool is_root) {
   const SceneOutcome outcome = run_scene(options);
   if (outcome.had_finished) {
@@ -49,32 +42,14 @@ int run(const SceneRun& options, bool is_root) {
   return outcome.exit_code();
 }
 
-int verify(const std::vector<std::string>& scenes, SceneRun options, bool is_root) {
-  int passed = 0, bad = 0;
-  std::vector<CheckResult> all;
-  for (const std::string& scene : scenes) {
-    options.scene = scene;
-    options.ignore_scenes_folder = true;
-    try {
-      const SceneOutcome outcome = run_scene(options);
-      // A signal is meant for all; the time that one scene may take is its own.
-      if (outcome.interruption && is_root) report_interruption(outcome);
-      if (outcome.interruption && outcome.interruption->signal != 0) return outcome.exit_code();
-      const bool holds = outcome.passed() && !outcome.interruption;
-      if (is_root)
-        fmt::print("{} {} ({} checks, {:.2f} s)\n{}", holds ? "ok  " : "FAIL", on_one_line(scene),
-                   outcome.checks.size(), outcome.timings.total, check_table(outcome.checks));
-      ++(holds ? passed : bad);
-      all.insert(all.end(), outcome.checks.begin(), outcome.checks.end());
-    } catch (const std::exception&) {
-      ++bad;
-      const std::string message = agree_on_exception();
-      if (is_root) fmt::print("FAIL {}\n{}\n", on_one_line(scene), message);
-    }
-  }
-  if (is_root && !all.empty()) fmt::print("checks that hold: {}\n", count_by_kind(all));
-  if (is_root) fmt::print("{} passed, {} failed\n", passed, bad);
-  return bad == 0 ? ok : failed;
+}  // namespace
+
+void report_interruption(const SceneOutcome& outcome) {
+  fmt::print(
+      stderr,
+      "interrupted: {}. The state at t = {:.6g}, step {}, is in {}; the same command with --resume goes "
+      "on from it\n",
+      outcome.interruption->reason, outcome.time, outcome.steps, outcome.folder.string());
 }
 
 void add_common(CommandLine& line, SceneRun& run) {
@@ -88,8 +63,6 @@ void add_common(CommandLine& line, SceneRun& run) {
   line.add_flag("!--no-picture", run.pictures, "make no picture");
 }
 
-}  // namespace
-
 Command run_command(CommandLine& parent) {
   CommandLine line = parent.add_subcommand("run", "Run a scene");
   auto options = std::make_shared<SceneRun>();
@@ -102,21 +75,12 @@ Command run_command(CommandLine& parent) {
       .needs("--resume");
   line.add_option("--stop-after", options->stop_after, "take so many steps, and leave a restart point")
       .positive();
+  line.add_option(
+      "--stop-at", [options](const std::string& text) { options->stop_at = evaluate_constant(text, {}); },
+      "begin no step from this time on, and leave a restart point");
   add_common(line, *options);
   resume.excludes("--overwrite");
   return {line, [options] { return run_on_all_ranks([&](bool is_root) { return run(*options, is_root); }); }};
-}
-
-Command verify_command(CommandLine& parent) {
-  CommandLine line = parent.add_subcommand("verify", "Run scenes and compare each with its checks");
-  auto options = std::make_shared<SceneRun>();
-  auto scenes = std::make_shared<std::vector<std::string>>();
-  line.add_option("scenes", *scenes, "YAML files").required();
-  add_common(line, *options);
-  options->pictures = false;
-  return {line, [options, scenes] {
-            return run_on_all_ranks([&](bool is_root) { return verify(*scenes, *options, is_root); });
-          }};
 }
 
 }  // namespace seam::cli

@@ -24,6 +24,7 @@ struct SceneRun {
   bool quiet = false;
   bool pictures = true;
   std::optional<long> stop_after;
+  std::optional<double> stop_at;
 };
 
 /// What came of it.
@@ -63,5 +64,11 @@ class RunFailure : public Error {
 /// @throws Error when the scene is broken; RunFailure when its solution fails: then summary.json holds the
 /// reason, and the last good state is in the folder.
 SceneOutcome run_scene(const SceneRun& run);
+
+/// Says on standard error how to go on with a run that was interrupted.
+void report_interruption(const SceneOutcome& outcome);
+
+/// Declares the options that `run` and `verify` have in common.
+void add_common(CommandLine& line, SceneRun& run);
 
 }  // namespace seam::cli

@@ -192,6 +192,7 @@ SceneOutcome run_scene(const SceneRun& run) {
   options.announce = true;
   options.quiet = run.quiet;
   options.stop_after = run.stop_after;
+  options.stop_at = run.stop_at;
   options.time_limit = std::min(run.time_limit, policy().limits.seconds);
   try {
     outcome.results = simulation.run(options);
@@ -203,7 +204,7 @@ SceneOutcome run_scene(const SceneRun& run) {
     throw RunFailure(record_failure(simulation, folder, communicator), code);
   }
   outcome.interruption = simulation.interruption();
-  if (!run.stop_after && !outcome.interruption)
+  if (!run.stop_after && !run.stop_at && !outcome.interruption)
     outcome.checks = judge(simulation, scene, outcome.results, folder, communicator);
   outcome.timings = simulation.timings();
   outcome.linear_choice = simulation.session().linear_choice();

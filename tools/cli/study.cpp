@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "command.hpp"
+#include "json_file.hpp"
 #include "seam/base/diagnostics.hpp"
 #include "seam/base/program.hpp"
 #include "seam/output/atomic_file.hpp"
@@ -100,11 +101,6 @@ std::string last_line(const fs::path& file) {
   for (std::string line; std::getline(in, line);)
     if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
   return last;
-}
-
-nlohmann::json read_json(const fs::path& file) {
-  std::ifstream in(file);
-  return nlohmann::json::parse(in, nullptr, false);
 }
 
 /// What a case's run left: its summary, or nothing when it broke off early.

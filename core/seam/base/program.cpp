@@ -28,6 +28,17 @@ int wait_for(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
+/// In a child: it ends with this process, even when that is killed; which it may have been already.
+void end_with(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(127);
+}
+
+/// A new file for what a program prints; -1 when it cannot be made.
+int open_output(const std::filesystem::path& output) {
+  return open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+}
+
 void limit(decltype(RLIMIT_AS) resource, double value) {
   rlimit bounds{};
   if (getrlimit(resource, &bounds) != 0) return;
@@ -38,9 +49,7 @@ void limit(decltype(RLIMIT_AS) resource, double value) {
 
 /// In a child: what holds it to its limits. Only async-signal-safe calls.
 void confine(const ProgramLimits& limits, pid_t parent) {
-  // It ends with this process, even when that is killed; which it may have been already.
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(127);
+  end_with(parent);
   limit(RLIMIT_AS, limits.memory_bytes);
   limit(RLIMIT_FSIZE, limits.file_bytes);
   limit(RLIMIT_CPU, std::ceil(limits.seconds) + 1);
@@ -49,8 +58,9 @@ void confine(const ProgramLimits& limits, pid_t parent) {
 }
 
 /// Starts a program whose streams go to the given files (-1: leave). Returns the process, or -1.
-pid_t start(const std::vector<std::string>& arguments, int out, int err,
-            const ProgramLimits* limits = nullptr) {
+/// @param prepare called in the child: only async-signal-safe calls
+template <class Prepare>
+pid_t start(const std::vector<std::string>& arguments, int out, int err, Prepare&& prepare) {
   // All memory is taken before fork: afterwards only async-signal-safe calls are allowed.
   std::vector<char*> argv;
   for (const std::string& a : arguments) argv.push_back(const_cast<char*>(a.c_str()));
@@ -58,11 +68,15 @@ pid_t start(const std::vector<std::string>& arguments, int out, int err,
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child != 0) return child;
-  if (limits) confine(*limits, parent);
+  prepare(parent);
   if (out >= 0) dup2(out, STDOUT_FILENO);
   if (err >= 0) dup2(err, STDERR_FILENO);
   execvp(argv[0], argv.data());
   _exit(127);
+}
+
+pid_t start(const std::vector<std::string>& arguments, int out, int err) {
+  return start(arguments, out, err, [](pid_t) {});
 }
 
 }  // namespace
@@ -70,7 +84,7 @@ pid_t start(const std::vector<std::string>& arguments, int out, int err,
 int run_program(const std::vector<std::string>& arguments, const std::filesystem::path& output) {
   int file = -1;
   if (!output.empty()) {
-    file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0644);
+    file = open_output(output);
     if (file < 0) return 127;
   }
   const pid_t child = start(arguments, file, file);
@@ -82,7 +96,7 @@ int run_program(const std::vector<std::string>& arguments, const NamelessFile& o
                 const ProgramLimits& limits) {
   const int file = open(output.path().c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return 127;
-  const pid_t child = start(arguments, file, file, &limits);
+  const pid_t child = start(arguments, file, file, [&](pid_t parent) { confine(limits, parent); });
   close(file);
   if (child < 0) return 127;
   siginfo_t ended{};
@@ -99,6 +113,41 @@ int run_program(const std::vector<std::string>& arguments, const NamelessFile& o
   kill(child, SIGKILL);
   wait_for(child);
   return timed_out;
+}
+
+RunningProgram::RunningProgram(const std::vector<std::string>& arguments,
+                               const std::filesystem::path& output) {
+  constexpr int not_started = 127;
+  const int file = open_output(output);
+  if (file >= 0)
+    process_ = start(arguments, file, file, [](pid_t parent) {
+      end_with(parent);
+      setpgid(0, 0);
+    });
+  if (file >= 0) close(file);
+  if (process_ < 0)
+    code_ = not_started;
+  else
+    setpgid(process_, process_);  // here, too: whichever comes first, the group is there before it is used
+}
+
+RunningProgram::~RunningProgram() {
+  if (code_) return;
+  send(SIGKILL);
+  wait_for(process_);
+}
+
+std::optional<int> RunningProgram::ended() {
+  siginfo_t info{};
+  // Looks whether it has ended without taking its exit code.
+  if (!code_ && waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+      info.si_pid == process_)
+    code_ = wait_for(process_);
+  return code_;
+}
+
+void RunningProgram::send(int signal) const {
+  if (!code_) kill(-process_, signal);
 }
 
 NamelessFile::NamelessFile() {

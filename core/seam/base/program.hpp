@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,27 @@ int run_program(const std::vector<std::string>& arguments, const std::filesystem
 int run_program(const std::vector<std::string>& arguments, const NamelessFile& output,
                 const ProgramLimits& limits);
 constexpr int timed_out = -1;
+
+/// A program that runs beside this process, in a group of its own with all that it starts. It ends when this
+/// process does.
+class RunningProgram {
+ public:
+  /// @param output file that gets what it prints, both streams
+  RunningProgram(const std::vector<std::string>& arguments, const std::filesystem::path& output);
+  /// Ends it when it still runs.
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// Its exit code, as run_program() returns it; none as long as it runs.
+  [[nodiscard]] std::optional<int> ended();
+  /// Sends a signal to its group.
+  void send(int signal) const;
+
+ private:
+  int process_ = -1;
+  std::optional<int> code_;
+};
 
 /// What a short program prints, without the last line break; "" when it fails.
 std::string program_output(const std::vector<std::string>& arguments);

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "seam/conformance/finite_difference.hpp"
 #include "seam/conformance/scene_checks.hpp"
 #include "seam/record/checks.hpp"
+#include "seam/record/series_table.hpp"
 #include "seam/scene/expression.hpp"
 
 namespace seam {
@@ -16,35 +15,9 @@ namespace {
 
 constexpr double tolerance = 1e-8;
 
-using Series = std::map<std::string, std::vector<double>>;
-
-Series read_series(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line, cell;
-  if (!std::getline(in, line)) throw Error(fmt::format("the run left no series in '{}'", file.string()));
-  std::vector<std::string> names;
-  for (std::istringstream header(line); std::getline(header, cell, ',');) names.push_back(cell);
-  Series series;
-  while (std::getline(in, line)) {
-    std::istringstream row(line);
-    for (std::size_t k = 0; k < names.size() && std::getline(row, cell, ','); ++k)
-      series[names[k]].push_back(std::strtod(cell.c_str(), nullptr));
-  }
-  return series;
-}
-
-double largest(const std::vector<double>& values) {
-  double result = 0;
-  for (const double v : values) result = worse(result, std::abs(v));
-  return result;
-}
-
-/// "tip" of "tip.x": the components of a vector share a scale.
-std::string group_of(const std::string& name) { return name.substr(0, name.rfind('.')); }
-
 /// The size of what a formula is made of: how much it changes with each of the series that it names, times
 /// their size, where that is largest.
-double size_of_formula(const std::string& formula, const Series& series,
+double size_of_formula(const std::string& formula, const SeriesTable& series,
                        const std::map<std::string, double>& parameters) {
   constexpr double part = 1e-3;
   const auto value = [&](std::size_t k, const std::string& changed) {
@@ -68,13 +41,8 @@ double size_of_formula(const std::string& formula, const Series& series,
 }
 
 /// What differences of a series are measured by.
-std::map<std::string, double> sizes(const Scene& scene, const Series& series) {
-  std::map<std::string, double> group, result;
-  for (const auto& [name, values] : series) {
-    double& of_group = group[group_of(name)];
-    of_group = std::max(of_group, largest(values));
-  }
-  for (const auto& entry : series) result[entry.first] = group[group_of(entry.first)];
+std::map<std::string, double> sizes(const Scene& scene, const SeriesTable& series) {
+  std::map<std::string, double> result = sizes_of(series);
   for (const auto& [name, p] : scene.root.object("output").map("formulas"))
     if (result.contains(name))
       result[name] = std::max(result[name], size_of_formula(p.text("value"), series, scene.parameters));
@@ -86,33 +54,16 @@ std::map<std::string, double> sizes(const Scene& scene, const Series& series) {
   return result;
 }
 
-/// Largest difference, relative to these sizes.
-std::pair<double, std::string> difference(const Series& expected, const Series& found,
-                                          const std::map<std::string, double>& size) {
-  std::pair<double, std::string> worst{0, ""};
-  for (const auto& [name, values] : expected) {
-    const auto other = found.find(name);
-    if (other == found.end() || other->second.size() != values.size()) return {INFINITY, name};
-    const double scale = size.at(name);
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      const double error = std::abs(other->second[k] - values[k]);
-      const double relative = error == 0 ? 0.0 : worse(0, error / scale);
-      if (relative > worst.first) worst = {relative, name};
-    }
-  }
-  return worst;
-}
-
 }  // namespace
 
 ConformanceCheck check_ranks(const Scene& scene, const std::vector<std::filesystem::path>& files,
                              const std::vector<int>& ranks) {
-  const Series expected = read_series(files.at(0));
+  const SeriesTable expected = read_series_table(files.at(0));
   const std::map<std::string, double> size = sizes(scene, expected);
   double worst = 0;
   std::string where;
   for (std::size_t k = 1; k < files.size(); ++k) {
-    const auto [relative, name] = difference(expected, read_series(files[k]), size);
+    const auto [relative, name] = largest_difference(expected, read_series_table(files[k]), size);
     if (relative > worst) where = fmt::format("; worst in {} on {} ranks", name, ranks[k]);
     worst = std::max(worst, relative);
   }

@@ -102,6 +102,7 @@ const Results& Simulation::run(const RunOptions& options) {
   Refusals refusals = state.refusals;
   while (!session_.finished()) {
     if (options.stop_after && state.step_number - first >= *options.stop_after) break;
+    if (options.stop_at && state.time >= *options.stop_at) break;
     if (!attend(options)) break;
     step = advance(step, refusals);
   }

@@ -25,6 +25,7 @@ struct RunOptions {
   bool quiet = false;              ///< no progress line
   bool announce = false;           ///< say where a run that is resumed starts
   std::optional<long> stop_after;  ///< steps to take in this run
+  std::optional<double> stop_at;   ///< time from which on no further step is begun, s
   /// No step is begun after so many seconds since the simulation was begun to be built.
   double time_limit = std::numeric_limits<double>::infinity();
 };

@@ -28,7 +28,7 @@ void visit_scalars(const YAML::Node& node, const std::string& path, const Visit&
   if (!node.IsMap()) return;
   for (const auto& entry : node) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
-    if (key != "title" && key != "source" && key != "study" && key != "checks")
+    if (key != "title" && key != "source" && key != "study" && key != "matrix" && key != "checks")
       visit_scalars(entry.second, path + key + ".", visit);
   }
 }

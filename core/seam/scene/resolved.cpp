@@ -207,9 +207,9 @@ ResolvedScene resolve(const Scene& scene, const Registry& registry) {
 
 bool determines_numbers(std::string_view path) {
   // Parameters are in the values that use them; what plugins provide is in the types that the scene uses.
-  constexpr std::array<std::string_view, 10> other{"format", "title",      "source",  "tier",
+  constexpr std::array<std::string_view, 11> other{"format", "title",      "source",  "tier",
                                                    "output", "parameters", "plugins", "plugin_folders",
-                                                   "study",  "checks"};
+                                                   "study",  "matrix",     "checks"};
   return std::ranges::none_of(other, [&](std::string_view block) { return is_or_is_within(path, block); });
 }
 

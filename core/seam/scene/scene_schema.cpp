@@ -197,16 +197,59 @@ Schema check_schema() {
   return schema;
 }
 
-Schema study_schema() {
+/// What `study` and `matrix` have in common.
+Schema varying_schema(const std::string& summary, const std::string& vary) {
   Schema values("Values of one key.");
   values.names("values", "numbers, expressions or words, as they would stand in the scene");
 
-  Schema schema("Runs of this scene over ranges of values, compared with each other by `seam study`.");
-  schema.value_map("vary", "key paths (a parameter's name alone will do) with the values each takes", values);
+  Schema schema(summary);
+  schema.value_map("vary", vary, values);
   schema
       .names("together",
              "keys of `vary` that change together, all with as many values; the others form all combinations")
       .otherwise("[]");
+  return schema;
+}
+
+Schema matrix_schema() {
+  Schema known("Variants that fall short today: counted apart, and an error once they pass.");
+  known.text("when", "which: a condition as that of `leave_out`");
+  known.text("reason", "why they fall short, for reports");
+
+  Schema agreement("Variants that differ in these keys alone must leave the same series.");
+  agreement.names("over", "keys of `vary`");
+  agreement.names("series", "columns of series.csv; none: all of them").otherwise("[]");
+  agreement
+      .number("within",
+              "largest difference in any row, relative to the largest value of the series; of a component, "
+              "that of its whole vector")
+      .above(0);
+
+  Schema schema = varying_schema(
+      "Variants of this scene, each of which must meet the scene's checks: `seam verify --matrix`.",
+      "key paths (a parameter's name alone will do) with the values each takes; `ranks`: of MPI; `restart`: "
+      "`none`, or the number of ranks on which a run goes on that was ended in the middle of its time");
+  schema
+      .choice(
+          "combine",
+          "`all` combinations; or the fewest that hold each pair of values of two keys, which is where most "
+          "of what breaks is found: keys that `agree` goes over are combined with all others",
+          {"all", "pairs"})
+      .otherwise("all");
+  schema
+      .text("leave_out",
+            "variants that are not run: a condition on keys of `vary`, their values and the scene's "
+            "parameters, solver.linear == krylov && ranks > 1")
+      .optional();
+  schema.list("known", "variants that fall short today", known).otherwise("[]");
+  schema.list("agree", "variants that must agree with each other", agreement).otherwise("[]");
+  return schema;
+}
+
+Schema study_schema() {
+  Schema schema =
+      varying_schema("Runs of this scene over ranges of values, compared with each other by `seam study`.",
+                     "key paths (a parameter's name alone will do) with the values each takes");
   schema
       .text("leave_out",
             "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
@@ -257,6 +300,8 @@ Schema scene_schema() {
   schema.object("output", "what the run writes", output_schema()).otherwise("{}");
   schema.list("checks", "what must hold at the end", check_schema()).otherwise("[]");
   schema.object("study", "runs over ranges of parameters, for `seam study`", study_schema()).optional();
+  schema.object("matrix", "variants that must meet the checks, for `seam verify --matrix`", matrix_schema())
+      .optional();
   return schema;
 }
 

@@ -46,14 +46,23 @@ bool names_a_file(const std::string& path) { return path.ends_with(".file") || p
 
 /// Whether a value may change in a run that goes on without making it another simulation.
 bool is_harmless(const std::string& path) {
-  constexpr std::array<std::string_view, 16> harmless{"format",         "title",
-                                                      "source",         "tier",
-                                                      "checks",         "study",
-                                                      "plugin_folders", "output.folder",
-                                                      "output.every",   "output.fields",
-                                                      "output.cut",     "output.interfaces",
-                                                      "output.picture", "output.statistics",
-                                                      "output.errors",  "output.restart"};
+  constexpr std::array<std::string_view, 17> harmless{"format",
+                                                      "title",
+                                                      "source",
+                                                      "tier",
+                                                      "checks",
+                                                      "study",
+                                                      "matrix",
+                                                      "plugin_folders",
+                                                      "output.folder",
+                                                      "output.every",
+                                                      "output.fields",
+                                                      "output.cut",
+                                                      "output.interfaces",
+                                                      "output.picture",
+                                                      "output.statistics",
+                                                      "output.errors",
+                                                      "output.restart"};
   return std::ranges::any_of(harmless, [&](std::string_view block) { return is_or_is_within(path, block); });
 }
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// seam verify --matrix: what comes of variants that pass, fall short, die, hang or are refused.
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "process.hpp"
+
+using Catch::Matchers::Contains;
+using namespace seam_cli_test;
+
+namespace {
+
+/// Runs all variants of scene.yaml into the folder `matrix`.
+Result verify(const Folder& folder, const std::string& options = "") {
+  return seam("verify --matrix " + (folder.path / "scene.yaml").string() + " --folder " +
+              (folder.path / "matrix").string() + " " + options);
+}
+
+nlohmann::json table(const Folder& folder) {
+  return nlohmann::json::parse(folder.read("matrix/matrix.json"));
+}
+
+/// "ok", "known" or "FAIL", by variant.
+std::map<std::string, std::string> verdicts(const Folder& folder) {
+  const nlohmann::json written = table(folder);
+  std::map<std::string, std::string> all;
+  for (const nlohmann::json& variant : written.at("variants"))
+    all[variant.at("variant").get<std::string>()] = variant.at("verdict").get<std::string>();
+  return all;
+}
+
+/// What a variant says of one thing.
+nlohmann::json finding(const Folder& folder, const std::string& variant, const std::string& what) {
+  const nlohmann::json written = table(folder);
+  for (const nlohmann::json& v : written.at("variants"))
+    for (const nlohmann::json& f : v.at("findings"))
+      if (v.at("variant") == variant && f.at("what") == what) return f;
+  FAIL("no finding '" << what << "' of '" << variant << "'");
+  return {};
+}
+
+/// The block pulled by a load that something happens to at t = 0.45, as its key `what` says.
+std::string troubled(const std::string& matrix) {
+  return pulled_by("{type: trouble, at: 2, load: 1, what: exception, rank: \"0\"}", "trouble") + "matrix:\n" +
+         matrix;
+}
+
+std::string slow(const std::string& matrix) {
+  return pulled_by("{type: slow, seconds: 0, load: 1}", "slow") + "matrix:\n" + matrix;
+}
+
+}  // namespace
+
+TEST_CASE("what cannot be read or set up is a row like any other") {
+  const Folder folder;
+  // A value with which no variant can be read is a mistake of the block: then the scene is the row.
+  (void)folder.file("scene.yaml",
+                    troubled("  vary: {meshes.block.grid.cells: [\"[2, 2]\", \"[2, 2, 2]\"]}\n"));
+  CHECK(verify(folder).code == 1);
+  CHECK_THAT(finding(folder, "", "the run").at("message").get<std::string>(),
+             Contains("the scene cannot be read with '[2, 2, 2]'") && Contains("scene.yaml:18"));
+  // What only shows when the scene is set up is the variant's.
+  (void)folder.file("scene.yaml", troubled("  vary: {output.probes.tip.at: [\"[1, 0.5]\", \"[3, 0.5]\"]}\n"));
+  const Result result = verify(folder);
+  INFO(result.output);
+  CHECK(result.code == 1);
+  CHECK_THAT(result.output, Contains("2 variants: 1 ok, 0 known to fall short, 1 failed"));
+  CHECK(finding(folder, "output.probes.tip.at=[3, 0.5]", "the run").at("broken") == true);
+}
+
+TEST_CASE("variants that die or whose plugin fails and those whose checks do not hold") {
+  const Folder folder;
+  (void)folder.file("scene.yaml",
+                    troubled("  vary:\n    functions.trouble.what: [death, exception]\n"
+                             "    functions.trouble.at: [2, 0.45]\n    functions.trouble.load: [1, -1]\n"
+                             "  leave_out: functions.trouble.at < 1 && functions.trouble.load < 0\n"));
+  const Result result = verify(folder);
+  INFO(result.output);
+  CHECK(result.code == 1);
+  const std::string dies = "functions.trouble.what=death functions.trouble.at=0.45 functions.trouble.load=1";
+  const std::string throws =
+      "functions.trouble.what=exception functions.trouble.at=0.45 functions.trouble.load=1";
+  const std::string falls_short =
+      "functions.trouble.what=exception functions.trouble.at=2 functions.trouble.load=-1";
+  const std::string passes =
+      "functions.trouble.what=exception functions.trouble.at=2 functions.trouble.load=1";
+  auto all = verdicts(folder);
+  CHECK(all.size() == 6);
+  CHECK(all[dies] == "FAIL");
+  CHECK(all[throws] == "FAIL");
+  CHECK(all[falls_short] == "FAIL");
+  CHECK(all[passes] == "ok");
+  CHECK_THAT(finding(folder, dies, "the run").at("message").get<std::string>(),
+             Contains("signal 9 (Killed)"));
+  CHECK(finding(folder, dies, "the run").at("broken") == true);
+  CHECK_THAT(finding(folder, throws, "the run").at("message").get<std::string>(),
+             Contains("the library below is out of sorts"));
+  CHECK(finding(folder, falls_short, "the run").at("holds") == true);
+  CHECK(finding(folder, falls_short, "tip.x").at("holds") == false);
+  CHECK(finding(folder, falls_short, "tip.x").at("broken") == false);
+  CHECK_THAT(result.output, Contains("6 variants: 2 ok, 0 known to fall short, 4 failed"));
+
+  // What failed is run again, and nothing else; the table keeps the others.
+  const Result again = verify(folder, "--failed");
+  CHECK_THAT(again.output, Contains("4 variants: 0 ok, 0 known to fall short, 4 failed"));
+  CHECK(verdicts(folder) == all);
+  // The command that is told for a variant does the same alone.
+  const nlohmann::json written = table(folder);
+  for (const nlohmann::json& v : written.at("variants")) {
+    const std::string command = v.at("command");
+    REQUIRE(command.starts_with("seam run "));
+    const Result alone =
+        seam(command.substr(5) + " --quiet --overwrite --folder " + (folder.path / "alone").string());
+    CHECK((alone.code == 0) == (v.at("verdict") == "ok"));
+  }
+}
+
+TEST_CASE("a variant that is known to fall short is counted apart, and an error once it passes") {
+  const std::string keys =
+      "  vary:\n    functions.trouble.load: [1, -1]\n    ranks: [1, 2]\n"
+      "  agree: [{over: [ranks], within: 1e-9}]\n  known:\n    - {when: functions.trouble.load < 0, reason: "
+      "it is pushed}\n";
+  const Folder folder;
+  (void)folder.file("scene.yaml", troubled(keys));
+  const Result result = verify(folder);
+  INFO(result.output);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.output,
+             Contains("4 variants: 2 ok, 2 known to fall short, 0 failed") && Contains("it is pushed"));
+  (void)folder.file(
+      "scene.yaml",
+      troubled(keys + "    - {when: functions.trouble.load > 0 && ranks == 2, reason: two do not pull}\n"));
+  const Result passes = verify(folder);
+  INFO(passes.output);
+  CHECK(passes.code == 1);
+  CHECK_THAT(passes.output, Contains("it passes, though it is declared to fall short (two do not pull)"));
+  CHECK(verdicts(folder)["functions.trouble.load=1 ranks=2"] == "FAIL");
+}
+
+TEST_CASE("a variant that takes longer than it may is ended, with all that it started") {
+  const Folder folder;
+  const std::string begun = (folder.path / "begun").string();
+  (void)folder.file("scene.yaml", slow("  vary:\n    functions.slow.from: [2, 0.45]\n    ranks: [1, 2]\n"
+                                       "  leave_out: functions.slow.from < 1 && ranks == 1\n"));
+  const Result result = verify(
+      folder, "--time-limit 8s --set functions.slow.seconds=100000 --set functions.slow.begun=" + begun);
+  INFO(result.output);
+  CHECK(result.code == 1);
+  auto all = verdicts(folder);
+  CHECK(all["functions.slow.from=2 ranks=1"] == "ok");
+  CHECK(all["functions.slow.from=2 ranks=2"] == "ok");
+  const std::string hangs = "functions.slow.from=0.45 ranks=2";
+  CHECK(all[hangs] == "FAIL");
+  CHECK_THAT(finding(folder, hangs, "the run").at("message").get<std::string>(),
+             Contains("it took longer than it may"));
+  CHECK(std::filesystem::exists(begun));
+  // Nothing of it is left.
+  CHECK(std::system(
+            ("pgrep -f '[s]eam run " + (folder.path / "scene.yaml").string() + "' >/dev/null").c_str()) != 0);
+}
+
+TEST_CASE("a signal ends a matrix and all that it started") {
+  const Folder folder;
+  const std::string begun = (folder.path / "begun").string();
+  (void)folder.file("scene.yaml", slow("  vary:\n    functions.slow.from: [2, 0.45]\n    ranks: [1, 2]\n"));
+  Process process(
+      "verify --matrix " + (folder.path / "scene.yaml").string() + " --folder " +
+          (folder.path / "matrix").string() +
+          " --jobs 1 --filter ranks=1 --set functions.slow.seconds=100000 --set functions.slow.begun=" +
+          begun,
+      "", (folder.path / "log").string());
+  process.wait_for([&] { return std::filesystem::exists(begun); });
+  process.send(SIGTERM);
+  CHECK(process.wait() == 128 + SIGTERM);
+  CHECK_THAT(process.output(), Contains("interrupted by SIGTERM"));
+  CHECK(std::system(
+            ("pgrep -f '[s]eam run " + (folder.path / "scene.yaml").string() + "' >/dev/null").c_str()) != 0);
+  CHECK(table(folder).at("failed") == 0);
+}
+
+TEST_CASE("variants that must agree are compared, restarted ones too") {
+  const Folder folder;
+  const auto scene = [](const std::string& within) {
+    return slow(
+        "  vary:\n    ranks: [1, 2]\n    restart: [none, 1, 2]\n    time.step.initial: [0.1, 0.05]\n"
+        "  agree:\n    - {over: [ranks, restart], within: 1e-9}\n"
+        "    - {over: [time.step.initial], series: [tip.x], within: " +
+        within + "}\n");
+  };
+  (void)folder.file("scene.yaml", scene("1"));
+  const Result result = verify(folder, "--filter initial=0.1");
+  INFO(result.output);
+  CHECK(result.code == 0);
+  CHECK_THAT(result.output, Contains("6 variants: 6 ok"));
+  // As many jobs as one likes: the same, but for the time it takes.
+  const auto without_seconds = [&] {
+    return std::regex_replace(folder.read("matrix/matrix.md"), std::regex(R"(\| [0-9.]+ \| [0-9]+ \|)"), "");
+  };
+  const std::string on_all = without_seconds();
+  REQUIRE(verify(folder, "--filter initial=0.1 --jobs 1").code == 0);
+  CHECK(without_seconds() == on_all);
+  // Other steps make other rows.
+  const Result steps = verify(folder, "--filter 'restart=none'");
+  INFO(steps.output);
+  CHECK(steps.code == 1);
+  CHECK_THAT(steps.output,
+             Contains("tip.x has 21 rows, 11 with 'ranks=1 restart=none time.step.initial=0.1'"));
+}
+
+TEST_CASE("what the matrix must not touch it leaves alone, and what is missing it says") {
+  const Folder folder;
+  (void)folder.file("scene.yaml", slow("  vary:\n    ranks: [1]\n"));
+  std::filesystem::create_directories(folder.path / "matrix");
+  (void)folder.file("matrix/own.txt", "mine");
+  CHECK_THAT(verify(folder).output, Contains("the folder holds what `seam verify --matrix` did not write"));
+  CHECK(folder.read("matrix/own.txt") == "mine");
+  CHECK_THAT(verify(folder, "--failed").output, Contains("there is no table of an earlier run"));
+  CHECK_THAT(verify(folder, "--filter nothing").output, Contains("no variant is such"));
+  std::filesystem::create_directories(folder.path / "empty");
+  CHECK_THAT(seam("verify --matrix " + (folder.path / "empty").string()).output,
+             Contains("the folder holds no scenes"));
+  CHECK_THAT(seam("verify " + (folder.path / "scene.yaml").string() + " --jobs 1").output,
+             Contains("--matrix"));
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "plan.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "../common.hpp"
+#include "../vary.hpp"
+#include "condition.hpp"
+#include "pairs.hpp"
+
+namespace seam::cli {
+namespace {
+
+const std::string ranks_word = "ranks", restart_word = "restart", no_restart = "none";
+
+bool is_own_word(const std::string& name) { return name == ranks_word || name == restart_word; }
+
+Scene load(const std::filesystem::path& file, const std::vector<std::string>& set) {
+  Registry registry = builtin_types();
+  PluginHost host = PluginHost::standard();
+  return load_scene(file, parse_overrides(set), host, registry);
+}
+
+int number_of_ranks(const std::string& text, const Vary::Key& key) {
+  constexpr int most = 1024;
+  int ranks = 0;
+  const char* last = text.data() + text.size();
+  const auto [end, code] = std::from_chars(text.data(), last, ranks);
+  if (code == std::errc{} && end == last && ranks >= 1 && ranks <= most) return ranks;
+  throw Error(key.where,
+              fmt::format("matrix.vary.{}: found '{}', expected a number of ranks from 1 to {}{}", key.label,
+                          text, most, key.path == restart_word ? ", or `none` for a run in one piece" : ""));
+}
+
+std::string name_of(const Vary& vary, const std::vector<std::string>& values) {
+  std::string name;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    name += fmt::format("{}{}={}", k == 0 ? "" : " ", vary.keys[k].label, values[k]);
+  return name;
+}
+
+/// What a scene says with the values of a variant.
+struct Reading {
+  std::string problem;
+  std::map<std::string, double> parameters;
+};
+
+/// Makes the variants of a block, one step after the other.
+class Planner {
+ public:
+  Planner(const Scene& scene, const std::vector<std::string>& set)
+      : scene_(scene),
+        set_(set),
+        block_(scene.root.object("matrix")),
+        vary_(read_vary(block_, "matrix", scene, is_own_word)) {}
+
+  void plan(MatrixPlan& plan) {
+    for (const Vary::Key& key : vary_.keys)
+      if (key.path == restart_word) require_middle(key);
+    for (const std::vector<std::string>& values : combinations(vary_, block_.where("vary"))) {
+      Variant variant = make(values);
+      if (!is_left_out(variant)) plan.variants.push_back(std::move(variant));
+    }
+    if (plan.variants.empty()) throw Error(block_.where(), "matrix: `leave_out` leaves out all variants");
+    refuse_values_that_never_do(plan.variants);
+    mark_known(plan.variants);
+    if (block_.text("combine") == "pairs")
+      plan.variants = fewest_with_all_pairs(keys_of_agreements(), std::move(plan.variants));
+    for (const Parameters& agreement : block_.list("agree"))
+      plan.agreements.push_back(agree(agreement, plan.variants));
+  }
+
+ private:
+  Variant make(const std::vector<std::string>& values) {
+    Variant variant;
+    variant.values = values;
+    variant.name = name_of(vary_, values);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const Vary::Key& key = vary_.keys[k];
+      if (key.path == ranks_word)
+        variant.ranks = number_of_ranks(values[k], key);
+      else if (key.path == restart_word)
+        variant.resume_ranks =
+            values[k] == no_restart ? std::nullopt : std::optional(number_of_ranks(values[k], key));
+      else
+        variant.set.push_back(key.path + "=" + values[k]);
+    }
+    variant.problem = read(variant.set).problem;
+    return variant;
+  }
+
+  /// Variants that differ in ranks and restarts alone are read once.
+  const Reading& read(const std::vector<std::string>& own) {
+    const auto [entry, is_new] = readings_.try_emplace(own);
+    if (!is_new) return entry->second;
+    std::vector<std::string> all = set_;
+    all.insert(all.end(), own.begin(), own.end());
+    try {
+      entry->second.parameters = load(scene_.path, all).parameters;
+    } catch (const Error& error) {
+      entry->second = {error.what(), scene_.parameters};
+    }
+    return entry->second;
+  }
+
+  bool is_left_out(const Variant& variant) {
+    if (!block_.has("leave_out")) return false;
+    return Condition(vary_, block_.text("leave_out"), block_.where("leave_out"))
+        .holds(variant.values, read(variant.set).parameters);
+  }
+
+  /// A run without time takes one step: there is nothing to go on with.
+  void require_middle(const Vary::Key& key) const {
+    const bool has_steps = [&] {
+      if (!scene_.root.has("time")) return false;
+      const Parameters& time = scene_.root.object("time");
+      return time.object("step").number("initial") < time.number("end") - time.number("start");
+    }();
+    if (!has_steps)
+      throw Error(
+          key.where,
+          "matrix.vary.restart: the scene takes a single step, so that no run can be ended in its middle");
+  }
+
+  void refuse_values_that_never_do(const std::vector<Variant>& variants) const {
+    for (std::size_t k = 0; k < vary_.keys.size(); ++k)
+      for (const std::string& value : vary_.keys[k].values) {
+        const Variant* first = nullptr;
+        bool does = false;
+        for (const Variant& variant : variants) {
+          if (variant.values[k] != value) continue;
+          if (!first) first = &variant;
+          does = does || variant.problem.empty();
+        }
+        if (first && !does)
+          throw Error(vary_.keys[k].where,
+                      fmt::format("matrix.vary.{}: the scene cannot be read with '{}', whatever the other "
+                                  "keys are; with {}:\n{}",
+                                  vary_.keys[k].label, value, first->name, first->problem));
+      }
+  }
+
+  void mark_known(std::vector<Variant>& variants) {
+    for (const Parameters& known : block_.list("known")) {
+      const Condition condition(vary_, known.text("when"), known.where("when"));
+      bool any = false;
+      for (Variant& variant : variants) {
+        if (!condition.holds(variant.values, read(variant.set).parameters)) continue;
+        any = true;
+        if (variant.known.empty()) variant.known = known.text("reason");
+      }
+      if (!any)
+        throw Error(known.where("when"),
+                    "matrix.known: no variant is such; take it out, or mend the condition");
+    }
+  }
+
+  [[nodiscard]] std::set<std::size_t> keys_over(const Parameters& agreement) const {
+    std::set<std::size_t> over;
+    for (const std::string& name : agreement.names("over")) {
+      const std::size_t key = find_key(vary_, name, agreement.where("over"), "matrix.agree.over");
+      // Keys that change together are one.
+      for (const std::vector<std::size_t>& group : vary_.groups)
+        if (std::ranges::find(group, key) != group.end()) over.insert(group.begin(), group.end());
+    }
+    return over;
+  }
+
+  [[nodiscard]] std::set<std::size_t> keys_of_agreements() const {
+    std::set<std::size_t> all;
+    for (const Parameters& agreement : block_.list("agree")) all.merge(keys_over(agreement));
+    return all;
+  }
+
+  [[nodiscard]] Agreement agree(const Parameters& p, const std::vector<Variant>& variants) const {
+    const std::set<std::size_t> over = keys_over(p);
+    Agreement agreement{
+        fmt::format("{}", fmt::join(p.names("over"), ", ")), p.names("series"), p.number("within"), {}};
+    std::map<std::vector<std::string>, std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      std::vector<std::string> others;
+      for (std::size_t k = 0; k < variants[i].values.size(); ++k)
+        if (!over.contains(k)) others.push_back(variants[i].values[k]);
+      groups[others].push_back(i);
+    }
+    for (auto& entry : groups)
+      if (entry.second.size() > 1) agreement.groups.push_back(std::move(entry.second));
+    if (agreement.groups.empty())
+      throw Error(p.where("over"),
+                  fmt::format("matrix.agree: no two variants differ in {} alone; nothing would be compared",
+                              agreement.over.empty() ? "these keys" : agreement.over));
+    return agreement;
+  }
+
+  const Scene& scene_;
+  const std::vector<std::string>& set_;
+  const Parameters& block_;
+  Vary vary_;
+  std::map<std::vector<std::string>, Reading> readings_;
+};
+
+}  // namespace
+
+MatrixPlan plan_matrix(const std::filesystem::path& scene_file, const std::vector<std::string>& set) {
+  const Scene scene = load(scene_file, set);
+  MatrixPlan plan;
+  plan.scene = scene_file;
+  plan.is_nightly = scene.root.text("tier") == "nightly";
+  plan.checks = scene.root.list("checks").size();
+  if (scene.root.has("time")) {
+    const Parameters& time = scene.root.object("time");
+    const double start = time.number("start"), span = time.number("end") - start;
+    plan.middle = start + span / 2;
+    plan.steps = std::max(1.0, std::ceil(span / time.object("step").number("initial")));
+  }
+  if (scene.root.has("matrix"))
+    Planner(scene, set).plan(plan);
+  else
+    plan.variants.emplace_back();
+  return plan;
+}
+
+}  // namespace seam::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "variant_run.hpp"
+
+namespace seam::cli {
+
+/// How many variants there are of each verdict.
+struct MatrixCount {
+  std::size_t ok = 0, known = 0, failed = 0;
+};
+MatrixCount count(const std::vector<VariantResult>& results);
+
+/// "ok   scene: variant (3 checks, 2.31 s)", and below it what does not hold.
+std::string as_text(const VariantResult& result);
+
+/// A table, a row each, and below it what does not hold.
+std::string as_markdown(const std::vector<VariantResult>& results);
+
+nlohmann::json as_json(const std::vector<VariantResult>& results);
+
+/// JUnit's XML, as Jenkins publishes its schema: a suite for each scene, a case for each thing that was
+/// looked at in a variant. What was declared to fall short is skipped.
+std::string as_junit(const std::vector<VariantResult>& results);
+
+}  // namespace seam::cli
