@@ -53,6 +53,15 @@ cmake_lines=$(sed -n '/^cmake_minimum/p;/^project/p;/^find_package/p;/^seam_add_
 echo "material and volume term: $lines lines, CMake: $cmake_lines lines"
 [ $((lines + cmake_lines)) -lt 100 ] || fail "material, volume term and CMake take 100 lines or more"
 
+# What the template's workflows do, as it stands there, with the Seam that is installed.
+for workflow in .github/workflows/test.yml .gitlab-ci.yml; do
+  rm -rf "$work/workflow"
+  cp -r "$source/tools/template" "$work/workflow"
+  "$source/tests/out_of_tree/workflow.py" "$work/workflow/$workflow" >"$work/commands"
+  (cd "$work/workflow" && env -u SEAM_PLUGIN_PATH SEAM="$work/seam" SEAM_REPOSITORY=none sh -eu "$work/commands") || fail "$workflow"
+  grep -q '<testsuite name="conformance/steady_heat.yaml"' "$work/workflow/build/matrix/junit.xml" || fail "$workflow left no JUnit file"
+done
+
 # Installed, a plugin is found without any variable.
 cmake --install "$work/example-build" --prefix "$work/seam" >/dev/null
 cd "$work"

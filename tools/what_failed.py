@@ -6,6 +6,7 @@
 
 Commands are for the root of the source, after `source tools/setup.sh`.
 """
+import json
 import re
 import shlex
 import sys
@@ -132,12 +133,23 @@ def of_build(stage, log, folder):
 
 
 def of_scenes(stage, folder, build):
-    failures = []
-    for log in sorted(folder.rglob("log")):
-        text = log.read_text(errors="replace")
-        scene = f"configs/{log.parent.relative_to(folder)}.yaml"
-        if not re.search(r"^1 passed, 0 failed$", text, re.M):
-            failures.append(Failure(stage, scene, matter(short(text).splitlines()), f"{short(str(build))}/bin/seam verify {scene}"))
+    """Of the table that `seam verify --matrix` leaves; of its log where it broke off, or a type is in no scene."""
+    log = build / f"{stage}.log"
+    told = short(log.read_text(errors="replace")).splitlines() if log.exists() else []
+    alone = f"{short(str(build))}/bin/seam verify --matrix configs"
+    table = folder / "matrix.json"
+    if not table.exists():
+        return [Failure(stage, "seam verify --matrix", told[-8:], alone)] if told else []
+    failures = [Failure(stage, line, [], f"{alone} --list --coverage") for line in told if line.startswith("FAIL ") and "no variant uses it" in line]
+    for variant in json.loads(table.read_text())["variants"]:
+        if variant["verdict"] != "FAIL":
+            continue
+        name = f'{variant["scene"]}: {variant["variant"] or "as it stands"}'
+        lines = [f'{f["what"]}: {line}' for f in variant["findings"] if not f["holds"] for line in f["message"].splitlines()]
+        if all(f["holds"] for f in variant["findings"]):
+            lines = [f'it passes, though it is declared to fall short: {variant["known"]}']
+        command = re.sub(r"\bseam run\b", f"{short(str(build))}/bin/seam run", variant["command"])
+        failures.append(Failure(stage, name, [short(line) for line in lines], command))
     return failures
 
 

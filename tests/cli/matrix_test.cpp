@@ -178,3 +178,42 @@ TEST_CASE("a mistake in a matrix is found by seam check with its place") {
   const Folder folder;
   CHECK(seam("check " + folder.file("scene.yaml", pulled(keys))).code == 0);
 }
+
+TEST_CASE("coverage lists types, choices and pairs of coupling and field that no variant uses") {
+  const Folder folder;
+  const std::string scene = folder.file(
+      "scene.yaml",
+      pulled("  vary: {meshes.block.grid.cell: [quadrilateral, triangle], solver.linear: [direct]}\n"));
+  const Result listed = seam("verify --matrix --list --coverage " + scene);
+  INFO(listed.output);
+  CHECK(listed.code == 0);
+  CHECK_THAT(listed.output, Contains("| hyperelastic:saint_venant_kirchhoff | solid |") &&
+                                Contains("| linear_solver:krylov | core |"));
+  CHECK_THAT(listed.output,
+             !Contains("| hyperelastic:neo_hookean | solid |") && !Contains("| field:solid | solid |"));
+  // Both cells are there; of the diagonals of triangles, which have a default, one.
+  CHECK_THAT(listed.output,
+             Contains("| scene.meshes.grid.cell | hexahedron, tetrahedron |") && Contains("| scene.meshes.grid.diagonals | "));
+  // A key of a type that nobody uses is not told apart from it.
+  CHECK_THAT(listed.output, !Contains("| constraint:joint.kind |"));
+
+  const std::string both =
+      folder.file("pressed.yaml",
+                  "title: Pressed\ndimension: 2\nplugins: [solid, nitsche_fsci]\nmeshes: {block: {grid: "
+                  "{from: [0, 0], to: [1, 1], cells: [2, 2]}}}\n"
+                  "fields: {block: {type: solid, mesh: block, material: {type: neo_hookean, young: 100, "
+                  "poisson: 0.3}, boundary: [{on: y_max, displacement: [0, -0.1]}]}}\n"
+                  "interfaces: {floor: {type: obstacle, from: block, boundaries: [y_min], body: {type: box, "
+                  "from: [-1, -1], to: [2, 0]}}}\n"
+                  "coupling: [{type: contact, on: floor}]\n");
+  CHECK_THAT(seam("verify --matrix --list --coverage " + both).output, Contains("| contact | solid | "));
+
+  const Result covered = seam("verify --matrix --list --cover nitsche_fsci " + both);
+  INFO(covered.output);
+  CHECK(covered.code == 1);
+  CHECK_THAT(covered.output,
+             Contains("FAIL coupling:fsi: no variant uses it") && !Contains("coupling:contact:"));
+  const Result unknown = seam("verify --matrix --list --cover nitsche " + both);
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.output, Contains("no scene loads such a plugin. Loaded: core, nitsche_fsci, solid"));
+}

@@ -78,8 +78,16 @@ Command verify_command(CommandLine& parent) {
   of_matrix(line.add_option(
       "--shard", [matrix](const std::string& text) { matrix->selection.shard = parse_shard(text); },
       "only one of so many parts, 2/5; all of them together are the whole"));
-  of_matrix(line.add_flag("--nightly", matrix->selection.nightly, "scenes of the nightly tier, too"));
+  of_matrix(line.add_option(
+      "--tier", [matrix](const std::string& text) { matrix->selection.tier = parse_tier(text); },
+      "only scenes of this tier: fast (the default), nightly, or all"));
   of_matrix(line.add_flag("--failed", matrix->failed, "only what failed last time in this folder"));
+  of_matrix(line.add_flag("--coverage", matrix->coverage,
+                          "say which types, choices and pairs of coupling and field no variant uses"));
+  of_matrix(
+      line.add_option("--cover", matrix->cover,
+                      "fail where no variant uses a type of this plugin, or of the core; may be repeated")
+          .take_all());
   of_matrix(line.add_flag("--list", matrix->list, "say what would be run, and end"));
   return {line, [options, matrix, is_matrix] {
             if (*is_matrix) return verify_matrix_as(*matrix, *options);

@@ -36,15 +36,15 @@ SeriesTable chosen(const SeriesTable& all, const std::vector<std::string>& names
 
 std::string describe(const SeriesDifference& difference, const SeriesTable& expected,
                      const SeriesTable& found, const std::string& other, double within) {
+  if (difference.name.empty()) return fmt::format("the same to the bit as '{}'", other);
   const auto rows = found.find(difference.name);
   if (rows == found.end())
     return fmt::format("there is no series '{}', which '{}' has", difference.name, other);
   const std::size_t wanted = expected.at(difference.name).size();
   if (rows->second.size() != wanted)
     return fmt::format("{} has {} rows, {} with '{}'", difference.name, rows->second.size(), wanted, other);
-  return fmt::format("{}{:.1e} of its size, at most {:.0e}, from '{}'",
-                     difference.name.empty() ? "" : difference.name + " ", difference.relative, within,
-                     other);
+  return fmt::format("{} {:.1e} of its size, at most {:.0e}, from '{}'", difference.name, difference.relative,
+                     within, other);
 }
 
 class Group {

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "matrix.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <map>
 
+#include "../circumstances.hpp"
 #include "../command.hpp"
+#include "../common.hpp"
 #include "../json_file.hpp"
 #include "agreement.hpp"
+#include "coverage.hpp"
 #include "report.hpp"
 #include "seam/output/atomic_file.hpp"
+#include "seam/plugin/plugin_info.hpp"
 #include "seam/run/interruption.hpp"
 #include "tasks.hpp"
 #include "variant_run.hpp"
@@ -167,15 +171,62 @@ nlohmann::json merged(const nlohmann::json& now, const fs::path& file) {
   return all;
 }
 
+/// What runs it again.
+std::string command_line(const MatrixOptions& options) {
+  std::string text = fmt::format("seam verify --matrix {} --tier {}", fmt::join(options.scenes, " "),
+                                 options.selection.tier);
+  for (const std::string& value : options.set) text += fmt::format(" --set '{}'", value);
+  if (!options.selection.filter.empty()) text += fmt::format(" --filter '{}'", options.selection.filter);
+  if (const auto& shard = options.selection.shard)
+    text += fmt::format(" --shard {}/{}", shard->first, shard->second);
+  return text;
+}
+
+void put(const MatrixOptions& options, const std::string& name, const std::string& text) {
+  write_text_atomically((options.folder / name).string(), text);
+}
+
 void write(const std::vector<VariantResult>& results, const MatrixOptions& options) {
-  const auto put = [&](const std::string& name, const std::string& text) {
-    write_text_atomically((options.folder / name).string(), text);
-  };
   nlohmann::json table = as_json(results);
   if (options.failed) table = merged(table, options.folder / table_name);
-  put(table_name, table.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  put("matrix.md", as_markdown(results));
-  put("junit.xml", as_junit(results));
+  put(options, table_name, table.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  auto around = circumstances(options.scenes.front(), host_fingerprint());
+  around.emplace_back("each variant",
+                      "one core a rank, as many at once as cores and memory allow; seconds by the clock");
+  around.emplace_back("command", command_line(options));
+  put(options, "matrix.md", as_markdown(results, around));
+  put(options, "junit.xml", as_junit(results));
+}
+
+/// What the chosen variants use.
+Coverage find_coverage(const std::vector<MatrixPlan>& plans, const std::vector<VariantId>& chosen,
+                       const std::vector<std::string>& set) {
+  Coverage coverage;
+  std::set<std::pair<std::size_t, std::vector<std::string>>> seen;
+  for (const auto& [p, v] : chosen) {
+    const Variant& variant = plans[p].variants[v];
+    if (!variant.problem.empty() || !seen.emplace(p, variant.set).second) continue;
+    std::vector<std::string> all = set;
+    all.insert(all.end(), variant.set.begin(), variant.set.end());
+    Registry registry = builtin_types();
+    PluginHost host = PluginHost::standard();
+    const Scene scene = load_scene(plans[p].scene, parse_overrides(all), host, registry);
+    coverage.add(scene, registry);
+  }
+  return coverage;
+}
+
+/// @returns how many types are not used that must be
+std::size_t report(const Coverage& coverage, const MatrixOptions& options) {
+  if (options.coverage) fmt::print("{}\n", coverage.as_markdown());
+  const std::set<std::string> known = coverage.plugins();
+  for (const std::string& plugin : options.cover)
+    if (!known.contains(plugin))
+      throw Error(fmt::format("--cover {}: no scene loads such a plugin. Loaded: {}", plugin,
+                              fmt::join(known, ", ")));
+  const std::vector<std::string> unused = coverage.unused_types({options.cover.begin(), options.cover.end()});
+  for (const std::string& type : unused) fmt::print("FAIL {}: no variant uses it\n", type);
+  return unused.size();
 }
 
 /// A scene that cannot be read is a row like any other.
@@ -217,10 +268,11 @@ int verify_matrix(const MatrixOptions& options) {
   for (const fs::path& scene : find_scenes(options.scenes))
     plans.push_back(plan_or_problem(scene, options.set));
   std::vector<VariantId> chosen = select(plans, selection);
-  if (options.list) {
-    print_list(plans, chosen);
-    return ok;
-  }
+  std::size_t unused = 0;
+  const bool wants_coverage = options.coverage || !options.cover.empty();
+  if (options.list) print_list(plans, chosen);
+  if (wants_coverage) unused = report(find_coverage(plans, chosen, options.set), options);
+  if (options.list) return unused == 0 ? ok : failed;
   if (chosen.empty()) {
     fmt::print("{}\n", options.failed ? "nothing failed last time" : "no variant is such");
     return options.failed ? ok : broken_input;
@@ -241,7 +293,7 @@ int verify_matrix(const MatrixOptions& options) {
                matrix.results().size() - results.size(), matrix.results().size());
     return by_signal + signal;
   }
-  return n.failed == 0 ? ok : failed;
+  return n.failed == 0 && unused == 0 ? ok : failed;
 }
 
 }  // namespace seam::cli

@@ -18,8 +18,10 @@ struct MatrixOptions {
   std::optional<long> jobs;  ///< cores to use; none: all
   double seconds_each;       ///< that a variant may take
   Selection selection;
-  bool failed = false;  ///< only what failed last time, as the folder's matrix.json says
-  bool list = false;    ///< say what would be run
+  bool failed = false;             ///< only what failed last time, as the folder's matrix.json says
+  bool list = false;               ///< say what would be run
+  bool coverage = false;           ///< say what no variant uses
+  std::vector<std::string> cover;  ///< plugins, or "core", each of whose types some variant must use
 };
 
 /// Runs variants of scenes, each in a process and a folder of its own, several at once; writes matrix.json,

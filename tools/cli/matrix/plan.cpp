@@ -46,6 +46,25 @@ std::string name_of(const Vary& vary, const std::vector<std::string>& values) {
   return name;
 }
 
+/// How a scene steps through its time.
+struct TimeSpan {
+  double steps = 1;   ///< about how many
+  double middle = 0;  ///< s
+};
+
+TimeSpan time_of(const Scene& scene) {
+  if (!scene.root.has("time")) return {};
+  const Parameters& time = scene.root.object("time");
+  const double start = time.number("start"), span = time.number("end") - start;
+  TimeSpan result{1, start + span / 2};
+  if (!time.has("step")) return result;
+  // Steps that are taken again are not counted: there are more than one.
+  const Parameters& step = time.object("step");
+  constexpr double many = 100;
+  result.steps = step.has("initial") ? std::max(1.0, std::ceil(span / step.number("initial") - 1e-9)) : many;
+  return result;
+}
+
 /// What a scene says with the values of a variant.
 struct Reading {
   std::string problem;
@@ -118,11 +137,7 @@ class Planner {
 
   /// A run without time takes one step: there is nothing to go on with.
   void require_middle(const Vary::Key& key) const {
-    const bool has_steps = [&] {
-      if (!scene_.root.has("time")) return false;
-      const Parameters& time = scene_.root.object("time");
-      return time.object("step").number("initial") < time.number("end") - time.number("start");
-    }();
+    const bool has_steps = time_of(scene_).steps > 1;
     if (!has_steps)
       throw Error(
           key.where,
@@ -212,14 +227,10 @@ MatrixPlan plan_matrix(const std::filesystem::path& scene_file, const std::vecto
   const Scene scene = load(scene_file, set);
   MatrixPlan plan;
   plan.scene = scene_file;
-  plan.is_nightly = scene.root.text("tier") == "nightly";
+  plan.tier = scene.root.text("tier");
   plan.checks = scene.root.list("checks").size();
-  if (scene.root.has("time")) {
-    const Parameters& time = scene.root.object("time");
-    const double start = time.number("start"), span = time.number("end") - start;
-    plan.middle = start + span / 2;
-    plan.steps = std::max(1.0, std::ceil(span / time.object("step").number("initial")));
-  }
+  plan.steps = time_of(scene).steps;
+  plan.middle = time_of(scene).middle;
   if (scene.root.has("matrix"))
     Planner(scene, set).plan(plan);
   else

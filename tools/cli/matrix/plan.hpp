@@ -32,7 +32,7 @@ struct Agreement {
 /// What a scene's `matrix` block asks for; without one, the scene as it stands.
 struct MatrixPlan {
   std::filesystem::path scene;
-  bool is_nightly = false;
+  std::string tier = "fast";
   double steps = 1;   ///< about how many a run takes
   double middle = 0;  ///< of the scene's time, s
   std::size_t checks = 0;

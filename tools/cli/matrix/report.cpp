@@ -60,10 +60,13 @@ std::string as_text(const VariantResult& result) {
   return text;
 }
 
-std::string as_markdown(const std::vector<VariantResult>& results) {
+std::string as_markdown(const std::vector<VariantResult>& results,
+                        const std::vector<std::pair<std::string, std::string>>& circumstances) {
   const MatrixCount n = count(results);
-  std::string text = fmt::format("{} variants: {} ok, {} known to fall short, {} failed.\n\n", results.size(),
-                                 n.ok, n.known, n.failed);
+  std::string text = "# Variants\n\n| | |\n|---|---|\n";
+  for (const auto& [name, value] : circumstances) text += fmt::format("| {} | {} |\n", name, cell(value));
+  text += fmt::format("\n{} variants: {} ok, {} known to fall short, {} failed.\n\n", results.size(), n.ok,
+                      n.known, n.failed);
   text += "| scene | variant | result | holds | s | MB |\n|---|---|---|---:|---:|---:|\n";
   for (const VariantResult& r : results)
     text += fmt::format("| {} | {} | {} | {} of {} | {:.1f} | {:.0f} |\n", cell(r.scene), cell(called(r)),

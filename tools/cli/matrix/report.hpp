@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "variant_run.hpp"
@@ -18,8 +19,10 @@ MatrixCount count(const std::vector<VariantResult>& results);
 /// "ok   scene: variant (3 checks, 2.31 s)", and below it what does not hold.
 std::string as_text(const VariantResult& result);
 
-/// A table, a row each, and below it what does not hold.
-std::string as_markdown(const std::vector<VariantResult>& results);
+/// A page with a table, a row each, and below it what does not hold.
+/// @param circumstances machine, commit, command and the like, by name
+std::string as_markdown(const std::vector<VariantResult>& results,
+                        const std::vector<std::pair<std::string, std::string>>& circumstances);
 
 nlohmann::json as_json(const std::vector<VariantResult>& results);
 

@@ -58,6 +58,12 @@ std::pair<int, int> parse_shard(const std::string& text) {
   return {part, parts};
 }
 
+std::string parse_tier(const std::string& text) {
+  if (text != "fast" && text != "nightly" && text != "all")
+    throw Error(fmt::format("found '{}', expected fast, nightly or all", text));
+  return text;
+}
+
 std::vector<fs::path> find_scenes(const std::vector<std::string>& files_and_folders) {
   std::vector<fs::path> scenes;
   for (const std::string& name : files_and_folders) {
@@ -82,7 +88,7 @@ std::vector<VariantId> select(const std::vector<MatrixPlan>& plans, const Select
   std::size_t bundle_number = 0;
   for (std::size_t p = 0; p < plans.size(); ++p) {
     const MatrixPlan& plan = plans[p];
-    if (plan.is_nightly && !selection.nightly) continue;
+    if (selection.tier != "all" && selection.tier != plan.tier) continue;
     const std::vector<std::size_t> first = bundles(plan);
     std::vector<std::size_t> part(first.size());
     for (std::size_t v = 0; v < first.size(); ++v) {

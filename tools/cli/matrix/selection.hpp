@@ -16,13 +16,16 @@ namespace seam::cli {
 struct Selection {
   std::string filter;  ///< part of "SCENE: VARIANT", or a pattern with * and ?; "" for all
   std::optional<std::pair<int, int>> shard;  ///< number of the part, from 1, and of all parts
-  bool nightly = false;                      ///< scenes of the nightly tier, too
+  std::string tier = "fast";                 ///< of the scenes: `fast`, `nightly` or `all`
   /// Scene and variant of what failed last time; none: whatever came of it
   std::optional<std::set<std::pair<std::string, std::string>>> failed;
 };
 
 /// "2/5". @throws Error for anything else
 std::pair<int, int> parse_shard(const std::string& text);
+
+/// "fast", "nightly" or "all". @throws Error for anything else
+std::string parse_tier(const std::string& text);
 
 /// The scenes that files and folders hold, sorted within a folder. @throws Error for a folder without any
 std::vector<std::filesystem::path> find_scenes(const std::vector<std::string>& files_and_folders);
