@@ -192,8 +192,8 @@ TEST_CASE("coverage lists types, choices and pairs of coupling and field that no
   CHECK_THAT(listed.output,
              !Contains("| hyperelastic:neo_hookean | solid |") && !Contains("| field:solid | solid |"));
   // Both cells are there; of the diagonals of triangles, which have a default, one.
-  CHECK_THAT(listed.output,
-             Contains("| scene.meshes.grid.cell | hexahedron, tetrahedron |") && Contains("| scene.meshes.grid.diagonals | "));
+  CHECK_THAT(listed.output, Contains("| scene.meshes.grid.cell | hexahedron, tetrahedron |") &&
+                                Contains("| scene.meshes.grid.diagonals | "));
   // A key of a type that nobody uses is not told apart from it.
   CHECK_THAT(listed.output, !Contains("| constraint:joint.kind |"));
 

@@ -82,7 +82,8 @@ void compare(const MatrixPlan& plan, const std::vector<VariantResult*>& results,
       std::optional<Group> group;
       // What is to pass is what others are compared with, where there is such a one.
       std::vector<std::size_t> order = members;
-      std::ranges::stable_partition(order, [&](std::size_t i) { return plan.variants[i].known.empty(); });
+      std::stable_partition(order.begin(), order.end(),
+                            [&](std::size_t i) { return plan.variants[i].known.empty(); });
       for (const std::size_t i : order) {
         if (!came_to_its_end(results[i])) continue;
         try {
