@@ -40,6 +40,7 @@ CHAINS = {
     "field": "solver cut ctest:solver_on_3_ranks ctest:cut_on_3_ranks run:restart_test",
     "interface": "mesh solver cut scene:solid/bonded_blocks",
     "linear": "solver ctest:solver_on_2_ranks fluid:linear_solver_test kit:cutfem_fluid",
+    "matrix": "cli:matrix_test ctest:junit run:matrix_run_test",
     "manufactured": "fsi:exact_test solver scene:fsi/c01 scene:poro/c07 scene:poro/waves",
     "mesh": "mesh input",
     "nitsche_fsci": "solver:nitsche_kernels_test solver:coupling_kernels_test fsi:eigenvalue_test fsi:exact_test fsi:contact_in_fluid_test fsi:porous_trends_test kit:nitsche_fsci "
@@ -127,6 +128,8 @@ def command_of(test, build, root):
         return ["cut_stress"], ["bin/cut_stress", "1000", "100"]
     if kind == "ctest":  # one that has more arguments than those here, or several ranks
         program = "cut_stress" if name.startswith("cut_stress") else f"test_{name.split('_on_')[0]}"
+        if name == "junit":
+            return ["seam", "seam_plugin_solid"], ["ctest", "-R", "^junit$", "--output-on-failure"]
         return [program], ["ctest", "-R", f"^{name}$", "--output-on-failure"]
     selection = ["-#", f"[#{name}]"] if name else ["~[study]~[.]"]
     return [f"test_{kind}"], [f"bin/test_{kind}"] + selection

@@ -66,6 +66,7 @@ TEST_CASE("a matrix has all combinations but those that are left out") {
   CHECK(variants_of("  vary: {restart: [none, 1, 2], parameters.n: [2, 3]}\n"
                     "  leave_out: (restart != none && n > 2) || restart == order\n") ==
         std::set<std::string>{"restart=none n=2", "restart=none n=3", "restart=2 n=2"});
+  CHECK(variants_of("  vary: {n: [1+1, 4]}\n  leave_out: 2*n == 4\n") == std::set<std::string>{"n=4"});
   CHECK(variants_of("  vary: {n: [2, 4]}\n  known: [{when: n == 4, reason: too fine}]\n") ==
         std::set<std::string>{"n=2", "n=4  (known: too fine)"});
 }
@@ -93,6 +94,10 @@ TEST_CASE("few variants hold all pairs of values, and all that must agree") {
   const std::set<std::string> fewer = variants_of(keys + "  leave_out: n == 4 && order == 2\n");
   CHECK(pairs(fewer).size() == pairs(few).size() - 1);
   CHECK(std::ranges::none_of(fewer, [](const std::string& name) { return name.starts_with("n=4 order=2"); }));
+  // Keys that change together are one, for agreements too.
+  CHECK(variants_of("  vary: {n: [2, 4], order: [1, 2], ranks: [1, 2]}\n  together: [n, order]\n  agree: "
+                    "[{over: [n], within: 1}]\n")
+            .size() == 4);
   // What must agree is there with all values of its keys.
   const std::set<std::string> whole = variants_of(
       "  vary: {n: [2, 3, 4], order: [1, 2], solver.linear: [direct, krylov], ranks: [1, 2, 3]}\n  combine: "

@@ -215,6 +215,26 @@ TEST_CASE("variants that must agree are compared, restarted ones too") {
              Contains("tip.x has 21 rows, 11 with 'ranks=1 restart=none time.step.initial=0.1'"));
 }
 
+TEST_CASE("a run that no step ends in its middle is no restart") {
+  const Folder folder;
+  // The second step, of more than half of the time, comes to the end.
+  (void)folder.file(
+      "scene.yaml",
+      slow("  vary: {restart: [none, 1], ranks: [1, 2]}\n  leave_out: restart == none && ranks == 1\n"));
+  const std::string steps =
+      " --set 'time.step={initial: 0.49, maximum: 1, adaptive: true, tolerance: 1}' --set "
+      "fields.block.density=1e-6";
+  const Result result = verify(folder, steps);
+  INFO(result.output);
+  CHECK(result.code == 1);
+  for (const std::string ranks : {"1", "2"})
+    CHECK_THAT(finding(folder, "restart=1 ranks=" + ranks, "the run").at("message").get<std::string>(),
+               Contains("no step ends in its middle"));
+  // The first part has the ranks of the variant, the second one those of the restart.
+  CHECK_THAT(result.output,
+             Contains("mpirun --oversubscribe -np 2 seam run") && Contains("--stop-at 0.5 && seam run"));
+}
+
 TEST_CASE("what the matrix must not touch it leaves alone, and what is missing it says") {
   const Folder folder;
   (void)folder.file("scene.yaml", slow("  vary:\n    ranks: [1]\n"));
