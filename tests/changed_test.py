@@ -70,6 +70,15 @@ for name in ("run/rigid_test", "conformance_of_solid", "configs/solid/cook", "cu
 order = [porous.index(name) for name in ("solver/pore_kernels_test", "conformance_of_poroelasticity", "run/porous_test", "configs/poro/terzaghi")]
 expect(order == sorted(order), f"{kernels[0]} selects in the order {porous}")
 expect("solver/spring_test" == names(kernels[2])[1], f"{kernels[2]}: spring_test is not the first after format")
+# Where time is short, what is far from the change and takes long is left out, and what is beside it stays.
+short = changed.Selection(build, [kernels[0]])
+known, changed.times = changed.times, lambda folder: {name: 1000.0 if "kernels_test" in name else 50.0 for name in porous}
+short.fit(120)
+changed.times = known
+kept = [test.name for test in short.tests]
+expect({"solver/pore_kernels_test", "solver/coupling_kernels_test"} <= set(kept), f"short of time, what is near is left out: {kept}")
+expect(sorted(kept + [name for name, _ in short.left_out]) == sorted(porous), "what is left out is not told")
+expect("configs/poro/terzaghi" in dict(short.left_out) and kept == [name for name in porous if name in kept], f"short of time, kept are {kept}")
 expect(names("plugins/solid/nobody.hpp") == [] and names("README") == [], "files that nothing depends on select something")
 expect(names("docs/architecture.md") == ["public_headers"], "documentation selects more than a check of headers")
 expect(names("configs/solid/cook.yaml")[0] == "configs/solid/cook", "a changed scene is not the first")

@@ -5,6 +5,10 @@
     tools/changed.py BUILD            of what differs from HEAD, or of the last commit where nothing does; SEAM_CHANGED_SINCE=REV
                                       names another base. Writes BUILD/changed/CTestTestfile.cmake and says what it chose.
     tools/changed.py BUILD FILE...    of these files
+    tools/changed.py BUILD --learn    keeps how long the tests took that were run last
+
+What takes longest and is furthest from the change is left out where all would take more than SEAM_CHANGED_SECONDS (240), by what
+earlier runs took; what that is, it says. `inf` leaves nothing out.
 
 The build folder knows it, once it is up to date: Ninja which object depends on which file and which program holds which
 object, CTest which test calls which program. Plugins are loaded at run time: a test that starts `seam` depends on those
@@ -25,6 +29,7 @@ ROOT = Path(__file__).resolve().parents[1]
 # A change in one of these can affect anything.
 EVERYTHING = re.compile(r"CMakeLists\.txt|(core|plugins|tests|tools|tools/cli)/CMakeLists\.txt|tools/(cmake/.*|packages\.txt)|core/.*\.in")
 SOURCE = re.compile(r"(core|plugins|tools|tests)/.*\.[ch]pp")
+UNKNOWN = 3.0  # seconds that a test takes of which nothing is known
 # What is run first: what is quick and near.
 FORMAT, NEAR, UNIT, KIT, RUN, SCENE, OTHER, STUDY, INSTALL = range(9)
 
@@ -207,7 +212,7 @@ class Selection:
         self.seam = self.core or self.touches("bin/seam")
         self.public = bool(self.files & self.public_headers())
         self.plugins = self.affected_plugins()
-        self.tests = []
+        self.tests, self.left_out = [], []
         self.total = sum(len(c) for cases in build.cases.values() for c in cases.values())
         self.choose()
         self.tests.sort(key=lambda t: t.rank)
@@ -364,6 +369,19 @@ class Selection:
                 self.tests.append(Test(scene.removesuffix(".yaml"), [str(build.folder / "bin/seam"), "verify", str(ROOT / scene), "--quiet"],
                                        NEAR if scene in self.files else SCENE, scene=True))
 
+    def fit(self, seconds):
+        """Leaves out what does not fit into so many core seconds, in the order in which tests are run."""
+        took, rest, kept = times(self.build.folder), seconds, []
+        for test in self.tests:
+            cost = took.get(test.name, UNKNOWN)
+            # What includes a change or is beside it is run, however long it takes.
+            if test.rank <= NEAR or cost <= rest:
+                kept.append(test)
+                rest -= cost
+            else:
+                self.left_out.append((test.name, cost))
+        self.tests = kept
+
     def report(self):
         yield f"{len(self.files)} changed files: {', '.join(sorted(self.files)[:4])}{', ...' if len(self.files) > 4 else ''}"
         plugins = [p + (f" ({', '.join(sorted(t))})" if t else "") for p, t in sorted(self.plugins.items())]
@@ -377,6 +395,8 @@ class Selection:
         by = ", ".join(f"{name} {n}" for name, n in counts.items() if n)
         yield f"{sum(counts.values())} of {self.total} test cases{' (' + by + ')' if by else ''}"
         yield f"{sum(t.scene for t in self.tests)} of {len(self.scenes)} scenes; {', '.join(others) or 'no other test'}"
+        if self.left_out:
+            yield f"left to `fast` and `scenes`, as time is short: {', '.join(f'{name} ({cost:.0f} s)' for name, cost in self.left_out)}"
 
     def write(self):
         """As tests of CTest, which counts them and runs several at a time: the first ones cost most, for it."""
@@ -391,6 +411,28 @@ class Selection:
             lines.append(f"set_tests_properties({quote(test.name)} PROPERTIES COST {len(self.tests) - number} WORKING_DIRECTORY {quote(where)})")
         folder.mkdir(exist_ok=True)
         (folder / "CTestTestfile.cmake").write_text("\n".join(lines) + "\n")
+
+
+def times_file(folder):
+    return folder / "changed-seconds.json"
+
+
+@functools.cache
+def times(folder):
+    """{test or scene: seconds}, as far as they are known."""
+    took = {}
+    table = folder / "scenes/matrix.json"
+    if table.exists():
+        took |= {v["scene"].removesuffix(".yaml"): v["seconds"] for v in json.loads(table.read_text())["variants"] if v["seconds"]}
+    if times_file(folder).exists():
+        took |= json.loads(times_file(folder).read_text())
+    return took
+
+
+def learn(folder):
+    log = folder / "changed/changed.log"
+    found = re.findall(r"^ *\d+/\d+ Test +#\d+: (\S+) \.* +Passed +([\d.]+) sec", log.read_text(errors="replace") if log.exists() else "", re.M)
+    times_file(folder).write_text(json.dumps(times(folder) | {name: float(seconds) for name, seconds in found}, indent=1) + "\n")
 
 
 def changed_files():
@@ -408,7 +450,11 @@ def changed_files():
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
+    if sys.argv[2:] == ["--learn"]:
+        return learn(Path(sys.argv[1]).resolve())
     selection = Selection(Build(sys.argv[1]), sys.argv[2:] or changed_files())
+    jobs = int(os.environ.get("SEAM_JOBS") or os.cpu_count())
+    selection.fit(jobs * float(os.environ.get("SEAM_CHANGED_SECONDS") or 240))
     selection.write()
     print("\n".join(selection.report()))
 

@@ -75,7 +75,7 @@ class Change:
     @property
     def area(self):
         parts = Path(self.file).parts
-        return parts[1] if parts[0] == "plugins" else parts[2]
+        return parts[1] if parts[0] == "plugins" else "matrix" if parts[0] == "tools" else parts[2]
 
     def apply(self, text):
         """The changed text, or None where `before`, but for white space, does not stand in it exactly once."""

@@ -40,9 +40,12 @@ def is_error(measure):
 
 def curves(rows, keys, against):
     """Rows by the values of the keys that are not on the horizontal axis."""
+    ends = [key.rsplit(".", 1)[-1] for key in keys]
+    # The end of a key path says enough where no other key ends alike.
+    names = {key: end if ends.count(end) == 1 else key for key, end in zip(keys, ends)}
     groups = {}
     for row in rows:
-        label = ", ".join(f"{key} {row[key]}" for key in keys if key != against)
+        label = ", ".join(f"{names[key]} {row[key]}" for key in keys if key != against)
         groups.setdefault(label, []).append(row)
     # Along a curve the key grows; cost, which is measured, need not.
     for group in groups.values():
@@ -66,16 +69,17 @@ def slope(pairs):
 
 
 def draw(axes, groups, x, y, label, scale=1.0, annotate=False):
+    """Names of curves are said by the figure; where an order can be seen, its legend has that."""
     logarithmic = is_error(y)
     for k, (name, rows) in enumerate(groups.items()):
         pairs = points(rows, x, y, scale, logarithmic)
         if not pairs:
             continue
-        text = name
+        text = None
         if annotate and logarithmic and slope(pairs) is not None:
-            text = f"{name} (slope {slope(pairs):.2f})".strip()
+            text = f"{slope(pairs):.2f}"
         axes.plot(*zip(*pairs), color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)], markersize=5,
-                  linewidth=1.4, label=text or None)
+                  linewidth=1.4, label=text)
     if x != "peak_memory_bytes":  # most of it is there before the problem is
         axes.set_xscale("log")
     if logarithmic:
@@ -94,6 +98,19 @@ def mark_values(axes, rows, key):
         crowded = sum(len(texts[v]) for v in values) > 30
         axes.set_xticklabels([texts[v] for v in values], rotation=45 if crowded else 0)
         axes.minorticks_off()
+
+
+def name_curves(figure, groups):
+    """The names of the curves below all panels, where they cover none."""
+    if len(groups) < 2:
+        return
+    columns = max(1, min(len(groups), int(figure.get_figwidth() * 11 / max(map(len, groups)))))
+    lines = -(-len(groups) // columns)
+    height = (0.1 + 0.22 * lines) / figure.get_figheight()
+    figure.get_layout_engine().set(rect=(0, height, 1, 1 - height))
+    handles = [plt.Line2D([], [], color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)], markersize=5, linewidth=1.4)
+               for k in range(len(groups))]
+    figure.legend(handles, list(groups), loc="lower center", ncol=columns, fontsize=9, frameon=False)
 
 
 def main():
@@ -128,8 +145,9 @@ def main():
                 continue
             mark_values(axes, rows, options.against)
             axes.set_ylabel(measure)
-            if len(groups) > 1 or is_error(measure):
-                axes.legend(fontsize=9, framealpha=0.9)
+            if axes.get_legend_handles_labels()[0]:
+                axes.legend(fontsize=8, framealpha=0.7, title="slope", title_fontsize=8, labelspacing=0.2, handlelength=1.2)
+    name_curves(figure, groups)
     figure.suptitle(title, fontsize=12)
     figure.savefig(options.picture, dpi=110)
 

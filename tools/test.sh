@@ -6,7 +6,8 @@
 #   tools/test.sh all             everything, as continuous integration does
 #
 # changed   what differs from HEAD, or where nothing does, the last commit; SEAM_CHANGED_SINCE=REV compares with another one.
-#           The tests, scenes and formats which these files can affect, most likely to fail first; not part of `all`
+#           The tests, scenes and formats which these files can affect, most likely to fail first, as far as they fit into
+#           SEAM_CHANGED_SECONDS (240) by what earlier runs took; not part of `all`
 # build     compile, warnings are errors
 # fast      unit, property and command line tests
 # scenes    every scene of configs/ in all variants of its matrix against its own checks, but for those of the nightly tier
@@ -86,6 +87,9 @@ stage_changed() {
   # Writes what is to be run as tests of CTest, in this order.
   tools/changed.py "$seam_build" || { count 0 1; return 1; }
   run_ctest "$seam_build/changed"
+  local code=$?
+  tools/changed.py "$seam_build" --learn
+  return $code
 }
 
 stage_fast() { run_ctest "$seam_build" --label-exclude 'slow|install'; }

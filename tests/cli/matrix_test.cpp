@@ -66,6 +66,16 @@ TEST_CASE("a matrix has all combinations but those that are left out") {
   CHECK(variants_of("  vary: {restart: [none, 1, 2], parameters.n: [2, 3]}\n"
                     "  leave_out: (restart != none && n > 2) || restart == order\n") ==
         std::set<std::string>{"restart=none n=2", "restart=none n=3", "restart=2 n=2"});
+  // Values that are expressions of parameters are numbers, and words may hold anything.
+  CHECK(variants_of(
+            "  vary: {fields.block.density: [order, 2*order, 5]}\n  leave_out: fields.block.density < 3\n") ==
+        std::set<std::string>{"fields.block.density=5"});
+  CHECK(
+      variants_of("  vary: {solver.linear: [direct, '{type: krylov, keep: 2}'], "
+                  "fields.block.boundary.0.on: [x_min, '[x_min, y_min]']}\n"
+                  "  leave_out: \"solver.linear == {type: krylov, keep: 2} && fields.block.boundary.0.on != "
+                  "[x_min, y_min]\"\n")
+          .size() == 3);
   CHECK(variants_of("  vary: {n: [1+1, 4]}\n  leave_out: 2*n == 4\n") == std::set<std::string>{"n=4"});
   CHECK(variants_of("  vary: {n: [2, 4]}\n  known: [{when: n == 4, reason: too fine}]\n") ==
         std::set<std::string>{"n=2", "n=4  (known: too fine)"});
@@ -131,6 +141,10 @@ TEST_CASE("shards are the whole together, and keep together what must agree") {
   CHECK(variants(folder, "--filter 'n=5 order=2'").size() == 2);
   CHECK(variants(folder, "--filter 'order=1*ranks=2'").size() == 5);
   CHECK(variants(folder, "--filter scene.yaml").size() == 20);
+  (void)folder.file("scene.yaml",
+                    pulled("  vary: {meshes.block.grid.cells: ['[2, 2]', '[4, 2]'], order: [1, 2]}\n"));
+  CHECK(variants(folder, "--filter 'cells=[4, 2]*order=2'") ==
+        std::set<std::string>{"meshes.block.grid.cells=[4, 2] order=2"});
   for (const std::string wrong : {"0/3", "4/3", "3", "a/b", "1/", "-1/2", "1/2/3"}) {
     const Result result =
         seam("verify --matrix --list " + (folder.path / "scene.yaml").string() + " --shard " + wrong);
@@ -161,7 +175,12 @@ TEST_CASE("a mistake in a matrix is found by seam check with its place") {
       {"  vary: {restart: [none, 1]}\n", "the scene takes a single step", 19,
        "{static: true, end: 1, step: {initial: 1}}"},
       {keys + "  leave_out: n > 0\n", "leaves out all variants", 19},
-      {keys + "  leave_out: solver.linear == kryloff\n", "'solver.linear == kryloff'", 20},
+      {keys + "  leave_out: solver.linear == kryloff\n",
+       "'kryloff' is no key of `vary`, no word that one takes, and no parameter. Did you mean 'krylov'?", 20},
+      {keys + "  leave_out: n == 3\n", "matrix.leave_out: no variant is such", 20},
+      {"  vary: {n: [2, 4, 2]}\n", "a value stands there twice: there are two variants 'n=2'", 19},
+      {"  vary: {n: [2], parameters.n: [4]}\n", "the key stands there twice, also as 'n'", 19},
+      {keys + "  known: [{when: n == 2, reason: ''}]\n", "say why these variants fall short", 20},
       {keys + "  known: [{when: n == 3, reason: none}]\n", "no variant is such", 20},
       {keys + "  agree: [{over: [ranks], within: 1e-9}]\n",
        "matrix.agree.over: 'ranks' is no key of `vary`. Known: n, solver.linear", 20},
@@ -216,9 +235,57 @@ TEST_CASE("coverage lists types, choices and pairs of coupling and field that no
   const Result covered = seam("verify --matrix --list --cover nitsche_fsci " + both);
   INFO(covered.output);
   CHECK(covered.code == 1);
-  CHECK_THAT(covered.output,
-             Contains("FAIL coupling:fsi: no variant uses it") && !Contains("coupling:contact:"));
+  CHECK_THAT(covered.output, Contains("coupling:fsi: no variant uses it") && !Contains("coupling:contact:"));
   const Result unknown = seam("verify --matrix --list --cover nitsche " + both);
   CHECK(unknown.code == 2);
   CHECK_THAT(unknown.output, Contains("no scene loads such a plugin. Loaded: core, nitsche_fsci, solid"));
+}
+
+TEST_CASE("series that agree are looked up by seam check, a vector by its name") {
+  const Folder folder;
+  const auto check = [&](const std::string& series) {
+    return seam("check " + folder.file("scene.yaml",
+                                       pulled("  vary: {ranks: [1, 2]}\n  agree: [{over: [ranks], series: [" +
+                                              series + "], within: 1e-9}]\n")));
+  };
+  CHECK(check("tip").code == 0);
+  const Result unknown = check("top");
+  CHECK(unknown.code == 2);
+  CHECK_THAT(unknown.output,
+             Contains("scene.yaml:20") && Contains("the run records no series 'top'. Did you mean 'tip'?"));
+  (void)folder.file("scene.yaml", pulled(""));
+}
+
+TEST_CASE("folders hold scenes of a tier, none that is hidden, and each once") {
+  const Folder folder;
+  const auto names = [&](const std::string& arguments) {
+    const Result result = seam("verify --matrix --list " + arguments);
+    std::set<std::string> all;
+    std::istringstream in(result.output);
+    for (std::string line; std::getline(in, line);)
+      if (const std::size_t at = line.find(".yaml: ");
+          at != std::string::npos && line.ends_with("as it stands"))
+        CHECK(all.insert(std::filesystem::path(line.substr(0, at)).filename()).second);
+    return all;
+  };
+  const std::string plain = pulled("").substr(0, pulled("").find("matrix:")),
+                    nightly = "tier: nightly\n" + plain;
+  std::filesystem::create_directories(folder.path / ".hidden");
+  const std::string fast_scene = folder.file("fast.yaml", plain),
+                    nightly_scene = folder.file("nightly.yaml", nightly);
+  for (const std::string name : {".own.yaml", ".hidden/a.yaml", "workflow.yml", "note.txt"})
+    (void)folder.file(name, plain);
+  const std::string all = folder.path.string();
+  CHECK(names(all) == std::set<std::string>{"fast"});
+  CHECK(names(all + " --tier nightly") == std::set<std::string>{"nightly"});
+  CHECK(names(all + " --tier all " + fast_scene) == std::set<std::string>{"fast", "nightly"});
+  // What is named is run, whatever its tier.
+  CHECK(names(nightly_scene) == std::set<std::string>{"nightly"});
+  // What cannot be read has no tier: it is told in each.
+  (void)folder.file("broken.yaml", nightly + "wrong: 1\n");
+  for (const std::string tier : {"fast", "nightly"}) {
+    const Result broken = seam("verify --matrix --list --tier " + tier + " " + all);
+    CHECK(broken.code == 1);
+    CHECK_THAT(broken.output, Contains("unknown key 'wrong'"));
+  }
 }

@@ -110,8 +110,7 @@ TEST_CASE("variants that die or whose plugin fails and those whose checks do not
   for (const nlohmann::json& v : written.at("variants")) {
     const std::string command = v.at("command");
     REQUIRE(command.starts_with("seam run "));
-    const Result alone =
-        seam(command.substr(5) + " --quiet --overwrite --folder " + (folder.path / "alone").string());
+    const Result alone = seam(command.substr(5) + " --quiet");
     CHECK((alone.code == 0) == (v.at("verdict") == "ok"));
   }
 }
@@ -153,7 +152,7 @@ TEST_CASE("a variant that takes longer than it may is ended, with all that it st
   const std::string hangs = "functions.slow.from=0.45 ranks=2";
   CHECK(all[hangs] == "FAIL");
   CHECK_THAT(finding(folder, hangs, "the run").at("message").get<std::string>(),
-             Contains("it took longer than it may"));
+             Contains("it took longer than the 8 s that it may"));
   CHECK(std::filesystem::exists(begun));
   // Nothing of it is left.
   CHECK(std::system(
@@ -163,7 +162,8 @@ TEST_CASE("a variant that takes longer than it may is ended, with all that it st
 TEST_CASE("a signal ends a matrix and all that it started") {
   const Folder folder;
   const std::string begun = (folder.path / "begun").string();
-  (void)folder.file("scene.yaml", slow("  vary:\n    functions.slow.from: [2, 0.45]\n    ranks: [1, 2]\n"));
+  (void)folder.file("scene.yaml",
+                    slow("  vary:\n    functions.slow.from: [0.46, 0.45]\n    ranks: [1, 2]\n"));
   Process process(
       "verify --matrix " + (folder.path / "scene.yaml").string() + " --folder " +
           (folder.path / "matrix").string() +
@@ -177,6 +177,10 @@ TEST_CASE("a signal ends a matrix and all that it started") {
   CHECK(std::system(
             ("pgrep -f '[s]eam run " + (folder.path / "scene.yaml").string() + "' >/dev/null").c_str()) != 0);
   CHECK(table(folder).at("failed") == 0);
+  CHECK(table(folder).at("not_run") == 2);
+  // What was not run has not passed.
+  CHECK_THAT(verify(folder, "--failed --set functions.slow.seconds=0").output, Contains("2 variants: 2 ok"));
+  CHECK(table(folder).at("not_run") == 0);
 }
 
 TEST_CASE("variants that must agree are compared, restarted ones too") {
@@ -231,8 +235,8 @@ TEST_CASE("a run that no step ends in its middle is no restart") {
     CHECK_THAT(finding(folder, "restart=1 ranks=" + ranks, "the run").at("message").get<std::string>(),
                Contains("no step ends in its middle"));
   // The first part has the ranks of the variant, the second one those of the restart.
-  CHECK_THAT(result.output,
-             Contains("mpirun --oversubscribe -np 2 seam run") && Contains("--stop-at 0.5 && seam run"));
+  CHECK_THAT(result.output, Contains("mpirun --oversubscribe -np 2 seam run") &&
+                                Contains("003-alone --overwrite && seam run"));
 }
 
 TEST_CASE("what the matrix must not touch it leaves alone, and what is missing it says") {
@@ -242,11 +246,77 @@ TEST_CASE("what the matrix must not touch it leaves alone, and what is missing i
   (void)folder.file("matrix/own.txt", "mine");
   CHECK_THAT(verify(folder).output, Contains("the folder holds what `seam verify --matrix` did not write"));
   CHECK(folder.read("matrix/own.txt") == "mine");
+  std::filesystem::remove_all(folder.path / "matrix");
   CHECK_THAT(verify(folder, "--failed").output, Contains("there is no table of an earlier run"));
   CHECK_THAT(verify(folder, "--filter nothing").output, Contains("no variant is such"));
+  // A shard may be empty, and is no mistake.
+  CHECK(verify(folder, "--shard 5/5").code == 0);
+  // Links are not followed.
+  std::filesystem::create_directories(folder.path / "precious/001");
+  (void)folder.file("precious/001/q", "mine");
+  std::filesystem::create_directory_symlink(folder.path / "precious", folder.path / "matrix/001-scene");
+  CHECK_THAT(verify(folder).output, Contains("a link stands where the matrix has a folder of its own"));
+  CHECK(folder.read("precious/001/q") == "mine");
   std::filesystem::create_directories(folder.path / "empty");
   CHECK_THAT(seam("verify --matrix " + (folder.path / "empty").string()).output,
              Contains("the folder holds no scenes"));
   CHECK_THAT(seam("verify " + (folder.path / "scene.yaml").string() + " --jobs 1").output,
              Contains("--matrix"));
+}
+
+TEST_CASE("what failed last time is found again, however the scene is named, with what it must agree with") {
+  const Folder folder;
+  // Two variants that pass, and do not agree; one that fails.
+  const std::string scene = troubled(
+      "  vary: {functions.trouble.load: [1, 2, -1]}\n  known: [{when: functions.trouble.load < -5, reason: "
+      "none}]\n"
+      "  agree: [{over: [functions.trouble.load], series: [tip], within: 1e-3}]\n");
+  const std::string text = scene.substr(0, scene.find("  known:")) + scene.substr(scene.find("  agree:"));
+  (void)folder.file("scene.yaml", text);
+  REQUIRE(verify(folder).code == 1);
+  auto before = verdicts(folder);
+  CHECK(before["functions.trouble.load=1"] == "ok");
+  CHECK(before["functions.trouble.load=2"] == "FAIL");
+  const std::string spelled = "verify --matrix " + (folder.path / "precious/../scene.yaml").string() +
+                              " --folder " + (folder.path / "matrix").string() + " --failed";
+  std::filesystem::create_directories(folder.path / "precious");
+  const Result again = seam(spelled);
+  INFO(again.output);
+  CHECK(again.code == 1);
+  CHECK_THAT(again.output, Contains("3 variants: 1 ok, 0 known to fall short, 2 failed"));
+  // A part of all does not make the rest forgotten.
+  CHECK(verify(folder, "--filter load=1").code == 0);
+  CHECK(verify(folder, "--failed").code == 1);
+  // A variant that is gone cannot be run again.
+  std::string other = text;
+  other.replace(other.find("[1, 2, -1]"), 10, "[1, 3, -1]");
+  (void)folder.file("scene.yaml", other);
+  const Result gone = verify(folder, "--failed");
+  CHECK(gone.code == 2);
+  CHECK_THAT(
+      gone.output,
+      Contains("'functions.trouble.load=2' failed last time, and the scene has no such variant any more"));
+}
+
+TEST_CASE("two matrices do not share a folder, and coverage that is asked for is a row") {
+  const Folder folder;
+  const std::string begun = (folder.path / "begun").string();
+  (void)folder.file("scene.yaml", slow("  vary: {ranks: [1]}\n"));
+  {
+    Process process("verify --matrix " + (folder.path / "scene.yaml").string() + " --folder " +
+                        (folder.path / "matrix").string() +
+                        " --set functions.slow.from=0.45 --set functions.slow.seconds=100000 --set "
+                        "functions.slow.begun=" +
+                        begun,
+                    "", (folder.path / "log").string());
+    process.wait_for([&] { return std::filesystem::exists(begun); });
+    CHECK_THAT(verify(folder).output, Contains("another `seam verify --matrix` is at work in this folder"));
+  }
+  // It was killed: the folder is still its own.
+  const Result covered = verify(folder, "--cover solid");
+  INFO(covered.output);
+  CHECK(covered.code == 1);
+  CHECK_THAT(covered.output, Contains("2 variants: 1 ok, 0 known to fall short, 1 failed"));
+  CHECK(finding(folder, "types of solid", "coupling:spring").at("holds") == false);
+  CHECK_THAT(folder.read("matrix/junit.xml"), Contains("<testsuite name=\"coverage\""));
 }

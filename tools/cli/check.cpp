@@ -49,11 +49,18 @@ int print_resolved(const Options& options, bool is_root) {
   return ok;
 }
 
+void require_recorded(const MatrixPlan& matrix, const nlohmann::json& contents) {
+  std::vector<std::string> names;
+  for (const nlohmann::json& series : contents.at("recorded")) names.push_back(series.at("name"));
+  require_series(matrix, names);
+}
+
 Outcome check(const Options& options) {
   Registry registry = builtin_types();
   PluginHost host = PluginHost::standard();
   const Scene scene = load_scene(options.scene, parse_overrides(options.set), host, registry);
-  if (!options.without_matrix && scene.root.has("matrix")) plan_matrix(options.scene, options.set);
+  MatrixPlan matrix;
+  if (!options.without_matrix && scene.root.has("matrix")) matrix = plan_matrix(options.scene, options.set);
   Outcome outcome;
   Diagnostics warnings = scene.warnings;
   if (!options.without_meshes) {
@@ -63,6 +70,7 @@ Outcome check(const Options& options) {
     session.find_conflicts();
     warnings = session.warnings();
     outcome.contents = describe_contents(registry, session);
+    require_recorded(matrix, outcome.contents);
   }
   if (!warnings.all().empty()) outcome.messages = warnings.text();
   return outcome;

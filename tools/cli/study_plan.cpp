@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common.hpp"
+#include "condition.hpp"
 #include "seam/scene/expression.hpp"
 #include "vary.hpp"
 
@@ -28,7 +29,8 @@ double number_or_nan(const std::string& text, const std::map<std::string, double
 }
 
 /// Fills the numbers of a case. False when the study leaves it out.
-bool examine(StudyCase& one, const StudyPlan& plan, const std::string& file, std::vector<std::string> set) {
+bool examine(StudyCase& one, const StudyPlan& plan, const Vary& vary, const std::string& file,
+             std::vector<std::string> set) {
   const std::vector<std::string> own = overrides_of(plan, one);
   set.insert(set.end(), own.begin(), own.end());
   const Scene scene = load(file, set);
@@ -38,11 +40,9 @@ bool examine(StudyCase& one, const StudyPlan& plan, const std::string& file, std
     throw Error(study.where("vary"),
                 fmt::format("study.against: '{}' is '{}', which is no number; choose another key",
                             plan.labels[plan.against], one.values[plan.against]));
-  try {
-    return !study.has("leave_out") || evaluate_constant(study.text("leave_out"), scene.parameters) == 0;
-  } catch (const Error& error) {
-    throw Error(study.where("leave_out"), fmt::format("study.leave_out: {}", error.what()));
-  }
+  return !study.has("leave_out") || !Condition(vary, scene.parameters, study.text("leave_out"),
+                                               study.where("leave_out"), "study.leave_out")
+                                         .holds(one.values, scene.parameters);
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ StudyPlan plan_study(const std::string& scene_file, const std::vector<std::strin
                      : vary.keys.size() - 1;
   for (std::vector<std::string>& values : combinations(vary, study.where("vary"))) {
     StudyCase one{std::move(values), {}};
-    if (examine(one, plan, scene_file, set)) plan.cases.push_back(std::move(one));
+    if (examine(one, plan, vary, scene_file, set)) plan.cases.push_back(std::move(one));
   }
   if (plan.cases.empty()) throw Error(study.where(), "study: `leave_out` leaves out all cases");
   return plan;

@@ -85,6 +85,10 @@ Vary read_vary(const Parameters& block, const std::string& name, const Scene& sc
         key.path.starts_with(parameters_prefix) ? key.path.substr(parameters_prefix.size()) : key.path;
     key.values = values.names("values");
     key.where = values.where();
+    for (const Vary::Key& other : vary.keys)
+      if (other.path == key.path)
+        throw Error(key.where, fmt::format("{}.vary.{}: the key stands there twice, also as '{}'", name, word,
+                                           other.label));
     if (key.values.empty()) throw Error(key.where, fmt::format("{}.vary.{}: no values", name, word));
     vary.keys.push_back(std::move(key));
   }

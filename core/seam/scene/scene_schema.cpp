@@ -252,7 +252,8 @@ Schema study_schema() {
                      "key paths (a parameter's name alone will do) with the values each takes");
   schema
       .text("leave_out",
-            "combinations that are not run: a condition on the scene's parameters, order == 2 && n > 64")
+            "combinations that are not run: a condition on keys of `vary`, their values and the scene's "
+            "parameters, order == 2 && n > 64")
       .optional();
   schema.names(
       "measure",

@@ -21,21 +21,16 @@ SeriesTable chosen(const SeriesTable& all, const std::vector<std::string>& names
   if (names.empty()) return all;
   SeriesTable result;
   for (const std::string& name : names) {
-    const auto found = all.find(name);
-    if (found == all.end()) {
-      std::vector<std::string> known;
-      for (const auto& entry : all) known.push_back(entry.first);
-      const std::string guess = nearest_name(name, known);
-      throw Error(fmt::format("the run has no series '{}'{}", name,
-                              guess.empty() ? "" : fmt::format(". Did you mean '{}'?", guess)));
-    }
-    result.insert(*found);
+    const std::size_t before = result.size();
+    for (const auto& [column, values] : all)
+      if (is_series(column, name)) result[column] = values;
+    if (result.size() == before) throw Error(fmt::format("the run has no series '{}'", name));
   }
   return result;
 }
 
-std::string describe(const SeriesDifference& difference, const SeriesTable& expected,
-                     const SeriesTable& found, const std::string& other, double within) {
+std::string tell(const SeriesDifference& difference, const SeriesTable& expected, const SeriesTable& found,
+                 const std::string& other, double within) {
   if (difference.name.empty()) return fmt::format("the same to the bit as '{}'", other);
   const auto rows = found.find(difference.name);
   if (rows == found.end())
@@ -50,16 +45,18 @@ std::string describe(const SeriesDifference& difference, const SeriesTable& expe
 class Group {
  public:
   Group(const Agreement& agreement, const std::filesystem::path& reference, std::string name)
-      : agreement_(agreement),
-        name_(std::move(name)),
-        expected_(chosen(read(reference), agreement.series)),
-        size_(sizes_of(expected_)) {}
+      : agreement_(agreement), name_(std::move(name)) {
+    const SeriesTable all = read(reference);
+    // By all components of a vector, whichever of them are compared.
+    size_ = sizes_of(all);
+    expected_ = chosen(all, agreement.series);
+  }
 
   [[nodiscard]] Finding compare(const std::filesystem::path& folder) const {
     const SeriesTable found = read(folder);
     const SeriesDifference difference = largest_difference(expected_, found, size_);
-    return {"agreement over " + agreement_.over, difference.relative <= agreement_.within, false,
-            describe(difference, expected_, found, name_, agreement_.within)};
+    return {describe(agreement_), difference.relative <= agreement_.within, false,
+            tell(difference, expected_, found, name_, agreement_.within)};
   }
 
  private:
@@ -92,7 +89,7 @@ void compare(const MatrixPlan& plan, const std::vector<VariantResult*>& results,
           else
             group.emplace(agreement, folder_of(i), plan.variants[i].name);
         } catch (const Error& error) {
-          results[i]->findings.push_back({"agreement over " + agreement.over, false, false, error.what()});
+          results[i]->findings.push_back({describe(agreement), false, false, error.what()});
         }
       }
     }

@@ -141,7 +141,13 @@ std::string Coverage::as_markdown() const {
     for (const std::string& name : unused) text += fmt::format("| {} | {} |\n", name, types_.at(name).plugin);
   }
   text += "\n| key | values that no variant has |\n|---|---|\n";
+  const auto says_nothing_of_the_run = [](const std::string& key) {
+    return std::ranges::any_of(
+        std::vector<std::string>{"scene.tier", "scene.matrix.", "scene.checks.", "scene.output.picture."},
+        [&](const std::string& start) { return key.starts_with(start); });
+  };
   for (const auto& [key, values] : choices_) {
+    if (says_nothing_of_the_run(key)) continue;
     // Keys of a type that nobody uses are told by the type.
     if (const auto type = types_.find(key.substr(0, key.find('.')));
         type != types_.end() && type->second.scenes == 0)

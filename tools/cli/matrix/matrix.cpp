@@ -6,15 +6,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <memory>
 
 #include "../circumstances.hpp"
 #include "../command.hpp"
 #include "../common.hpp"
-#include "../json_file.hpp"
 #include "agreement.hpp"
 #include "coverage.hpp"
+#include "matrix_folder.hpp"
 #include "report.hpp"
-#include "seam/output/atomic_file.hpp"
+#include "seam/base/policy.hpp"
 #include "seam/plugin/plugin_info.hpp"
 #include "seam/run/interruption.hpp"
 #include "tasks.hpp"
@@ -25,40 +26,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string table_name = "matrix.json";
-
-/// What failed when the folder was last written to. @throws Error when there is nothing
-std::set<std::pair<std::string, std::string>> failed_last_time(const fs::path& folder) {
-  const nlohmann::json last = read_json(folder / table_name);
-  if (!last.is_object() || !last.contains("variants"))
-    throw Error({(folder / table_name).string()},
-                "--failed: there is no table of an earlier run; run without it first");
-  std::set<std::pair<std::string, std::string>> failed;
-  for (const nlohmann::json& variant : last.at("variants"))
-    if (variant.value("verdict", "") == "FAIL")
-      failed.emplace(variant.value("scene", ""), variant.value("variant", ""));
-  return failed;
-}
-
-/// The folder is this command's own, or is made. @throws Error when something else is in it
-void take_folder(const fs::path& folder) {
-  if (fs::exists(folder) && !fs::is_empty(folder) && !fs::exists(folder / table_name))
-    throw Error({folder.string()},
-                fmt::format("the folder holds what `seam verify --matrix` did not write ({} is not in it); "
-                            "choose another --folder",
-                            table_name));
-  fs::create_directories(folder);
-}
-
 /// Plans, and what is chosen of them, while it is run.
 class MatrixRun {
  public:
-  MatrixRun(const MatrixOptions& options, std::vector<MatrixPlan> plans, std::vector<VariantId> chosen)
-      : options_(options), plans_(std::move(plans)), chosen_(std::move(chosen)), machine_(this_machine()) {
+  MatrixRun(const MatrixOptions& options, const MatrixFolder& folder, const std::vector<MatrixPlan>& plans,
+            std::vector<VariantId> chosen)
+      : options_(options),
+        folder_(folder),
+        plans_(plans),
+        chosen_(std::move(chosen)),
+        machine_(this_machine()) {
     if (options.jobs) machine_.cores = static_cast<int>(*options.jobs);
     machine_.seconds_each = options.seconds_each;
-    for (const auto& [p, v] : chosen_)
-      results_.push_back(describe(plans_[p], plans_[p].variants[v], options_.set));
+    for (std::size_t i = 0; i < chosen_.size(); ++i)
+      results_.push_back(describe(plan(i), variant(i), options_.set, folder_of(i)));
   }
 
   /// @returns the signal that ended it, or 0
@@ -71,13 +52,6 @@ class MatrixRun {
   }
 
   [[nodiscard]] const std::vector<VariantResult>& results() const { return results_; }
-  /// Those that came to an end before a signal did.
-  [[nodiscard]] std::vector<VariantResult> ended() const {
-    std::vector<VariantResult> all;
-    for (const VariantResult& result : results_)
-      if (!result.findings.empty()) all.push_back(result);
-    return all;
-  }
 
  private:
   [[nodiscard]] const MatrixPlan& plan(std::size_t i) const { return plans_[chosen_[i].first]; }
@@ -95,8 +69,7 @@ class MatrixRun {
     std::map<std::pair<std::size_t, std::vector<std::string>>, std::size_t> numbers;
     std::vector<std::size_t> task_of(chosen_.size());
     for (std::size_t i = 0; i < chosen_.size(); ++i) {
-      fs::remove_all(folder_of(i));
-      fs::create_directories(folder_of(i));
+      folder_.make_new(folder_of(i));
       if (!variant(i).problem.empty()) continue;
       const auto [entry, is_new] = numbers.try_emplace({chosen_[i].first, variant(i).set}, tasks.size());
       task_of[i] = entry->second;
@@ -127,7 +100,8 @@ class MatrixRun {
       places.push_back(i);
     }
     return run_tasks(tasks, machine_, [&](std::size_t task, const TaskEnd& end) {
-      judge(results_[places[task]], plan(places[task]).checks, tasks[task], end, folder_of(places[task]));
+      judge(results_[places[task]], plan(places[task]).checks, tasks[task], end, folder_of(places[task]),
+            machine_.seconds_each);
       say(places[task]);
     });
   }
@@ -146,12 +120,20 @@ class MatrixRun {
   /// What has come to its end, as it does: whether it agrees with others is not known yet.
   void say(std::size_t i) {
     ++said_;
-    fmt::print("[{}/{}] {}", said_, chosen_.size(), as_text(results_[i]));
+    fmt::print("[{}/{}] {}", said_, chosen_.size(), as_text(results_[i], must_agree(i)));
     std::fflush(stdout);
   }
 
+  [[nodiscard]] bool must_agree(std::size_t i) const {
+    for (const Agreement& agreement : plan(i).agreements)
+      for (const std::vector<std::size_t>& group : agreement.groups)
+        if (std::ranges::find(group, chosen_[i].second) != group.end()) return true;
+    return false;
+  }
+
   const MatrixOptions& options_;
-  std::vector<MatrixPlan> plans_;
+  const MatrixFolder& folder_;
+  const std::vector<MatrixPlan>& plans_;
   std::vector<VariantId> chosen_;
   Machine machine_;
   std::vector<Estimate> estimates_;     ///< by the order chosen
@@ -159,43 +141,24 @@ class MatrixRun {
   std::size_t said_ = 0;
 };
 
-/// The table with what an earlier one says of variants that were not run now.
-nlohmann::json merged(const nlohmann::json& now, const fs::path& file) {
-  const nlohmann::json last = read_json(file);
-  if (!last.is_object()) return now;
-  nlohmann::json all = last;
-  for (const nlohmann::json& variant : now.at("variants"))
-    for (nlohmann::json& before : all["variants"])
-      if (before.at("scene") == variant.at("scene") && before.at("variant") == variant.at("variant"))
-        before = variant;
-  return all;
-}
-
 /// What runs it again.
 std::string command_line(const MatrixOptions& options) {
-  std::string text = fmt::format("seam verify --matrix {} --tier {}", fmt::join(options.scenes, " "),
-                                 options.selection.tier);
+  std::string text = "seam verify --matrix " + fmt::format("{}", fmt::join(options.scenes, " "));
+  if (options.selection.tier != "fast") text += " --tier " + options.selection.tier;
   for (const std::string& value : options.set) text += fmt::format(" --set '{}'", value);
   if (!options.selection.filter.empty()) text += fmt::format(" --filter '{}'", options.selection.filter);
   if (const auto& shard = options.selection.shard)
     text += fmt::format(" --shard {}/{}", shard->first, shard->second);
+  for (const std::string& word : trust_as_words()) text += " " + word;
   return text;
 }
 
-void put(const MatrixOptions& options, const std::string& name, const std::string& text) {
-  write_text_atomically((options.folder / name).string(), text);
-}
-
-void write(const std::vector<VariantResult>& results, const MatrixOptions& options) {
-  nlohmann::json table = as_json(results);
-  if (options.failed) table = merged(table, options.folder / table_name);
-  put(options, table_name, table.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+std::vector<std::pair<std::string, std::string>> circumstances_of(const MatrixOptions& options) {
   auto around = circumstances(options.scenes.front(), host_fingerprint());
   around.emplace_back("each variant",
                       "one core a rank, as many at once as cores and memory allow; seconds by the clock");
   around.emplace_back("command", command_line(options));
-  put(options, "matrix.md", as_markdown(results, around));
-  put(options, "junit.xml", as_junit(results));
+  return around;
 }
 
 /// What the chosen variants use.
@@ -216,84 +179,121 @@ Coverage find_coverage(const std::vector<MatrixPlan>& plans, const std::vector<V
   return coverage;
 }
 
-/// @returns how many types are not used that must be
-std::size_t report(const Coverage& coverage, const MatrixOptions& options) {
-  if (options.coverage) fmt::print("{}\n", coverage.as_markdown());
+/// The types that must be used, as a row of the table.
+VariantResult cover(const Coverage& coverage, const std::vector<std::string>& plugins) {
   const std::set<std::string> known = coverage.plugins();
-  for (const std::string& plugin : options.cover)
+  for (const std::string& plugin : plugins)
     if (!known.contains(plugin))
       throw Error(fmt::format("--cover {}: no scene loads such a plugin. Loaded: {}", plugin,
                               fmt::join(known, ", ")));
-  const std::vector<std::string> unused = coverage.unused_types({options.cover.begin(), options.cover.end()});
-  for (const std::string& type : unused) fmt::print("FAIL {}: no variant uses it\n", type);
-  return unused.size();
+  VariantResult row;
+  row.scene = "coverage";
+  row.name = fmt::format("types of {}", fmt::join(plugins, ", "));
+  for (const std::string& type : coverage.unused_types({plugins.begin(), plugins.end()}))
+    row.findings.push_back({type, false, false, "no variant uses it"});
+  if (row.findings.empty()) row.findings.push_back({"each type", true, false, ""});
+  return row;
 }
 
 /// A scene that cannot be read is a row like any other.
-MatrixPlan plan_or_problem(const fs::path& scene, const std::vector<std::string>& set) {
+MatrixPlan plan_or_problem(const FoundScene& scene, const std::vector<std::string>& set) {
+  MatrixPlan plan;
   try {
-    return plan_matrix(scene, set);
+    plan = plan_matrix(scene.file, set);
   } catch (const Error& error) {
-    MatrixPlan plan;
-    plan.scene = scene;
+    plan.scene = scene.file;
     plan.variants.emplace_back().problem = error.what();
-    return plan;
   }
+  plan.is_named = scene.is_named;
+  return plan;
 }
 
-void print_list(const std::vector<MatrixPlan>& plans, const std::vector<VariantId>& chosen) {
+/// @returns whether all can be read
+bool print_list(const std::vector<MatrixPlan>& plans, const std::vector<VariantId>& chosen) {
+  bool all_read = true;
   for (const auto& [p, v] : chosen) {
     const Variant& variant = plans[p].variants[v];
-    fmt::print("{}: {}{}\n", plans[p].scene.string(), variant.name.empty() ? "as it stands" : variant.name,
-               variant.known.empty() ? "" : fmt::format("  (known: {})", variant.known));
+    fmt::print("{}: {}{}\n", on_one_line(plans[p].scene.string()),
+               variant.name.empty() ? "as it stands" : on_one_line(variant.name),
+               variant.known.empty() ? "" : fmt::format("  (known: {})", on_one_line(variant.known)));
+    if (!variant.problem.empty()) fmt::print(stderr, "{}\n", variant.problem);
+    all_read = all_read && variant.problem.empty();
   }
-  fmt::print("{} variants of {} scenes\n", chosen.size(), plans.size());
+  fmt::print("{} variant{} of {} scene{}\n", chosen.size(), chosen.size() == 1 ? "" : "s", plans.size(),
+             plans.size() == 1 ? "" : "s");
+  return all_read;
 }
 
-/// What agreements found is not known when a variant ends.
-void print_disagreements(const std::vector<VariantResult>& results) {
-  for (const VariantResult& result : results)
-    if (result.is_unexpected() && std::ranges::any_of(result.findings, [](const Finding& f) {
-          return !f.holds && f.what.starts_with("agreement");
-        }))
-      fmt::print("{}", as_text(result));
+/// What was not known when a variant ended: whether it agrees with others.
+void print_agreements(const std::vector<VariantResult>& results) {
+  for (const VariantResult& result : results) {
+    const bool fell_apart = std::ranges::any_of(
+        result.findings, [](const Finding& f) { return !f.holds && f.what.starts_with("agreement"); });
+    const bool passes_known = result.verdict() == "FAIL" && result.holds();
+    if (fell_apart || passes_known) fmt::print("{}", as_text(result));
+  }
+}
+
+/// Why nothing is to be run. @returns an ExitCode
+int report_nothing(const std::vector<MatrixPlan>& plans, const Selection& selection) {
+  if (selection.failed && selection.failed->empty()) {
+    fmt::print("nothing failed last time\n");
+    return ok;
+  }
+  // A shard may be empty: there may be more of them than variants.
+  Selection without_shard = selection;
+  without_shard.shard.reset();
+  if (selection.shard && !select(plans, without_shard).empty()) {
+    fmt::print("0 variants: 0 ok, 0 known to fall short, 0 failed\n  the shard is empty\n");
+    return ok;
+  }
+  Selection any_tier = selection;
+  any_tier.tier = "all";
+  const std::size_t others = select(plans, any_tier).size();
+  fmt::print("no variant is such{}\n",
+             others == 0 ? "" : fmt::format(": {} in scenes of another tier, see --tier", others));
+  return broken_input;
 }
 
 }  // namespace
 
 int verify_matrix(const MatrixOptions& options) {
   Selection selection = options.selection;
-  if (options.failed) selection.failed = failed_last_time(options.folder);
   std::vector<MatrixPlan> plans;
-  for (const fs::path& scene : find_scenes(options.scenes))
+  for (const FoundScene& scene : find_scenes(options.scenes))
     plans.push_back(plan_or_problem(scene, options.set));
-  std::vector<VariantId> chosen = select(plans, selection);
-  std::size_t unused = 0;
-  const bool wants_coverage = options.coverage || !options.cover.empty();
-  if (options.list) print_list(plans, chosen);
-  if (wants_coverage) unused = report(find_coverage(plans, chosen, options.set), options);
-  if (options.list) return unused == 0 ? ok : failed;
-  if (chosen.empty()) {
-    fmt::print("{}\n", options.failed ? "nothing failed last time" : "no variant is such");
-    return options.failed ? ok : broken_input;
+  std::unique_ptr<MatrixFolder> folder;
+  if (!options.list || options.failed) folder = std::make_unique<MatrixFolder>(options.folder);
+  if (options.failed) selection.failed = folder->failed_last_time(plans);
+  const std::vector<VariantId> chosen = select(plans, selection);
+  const bool all_read = !options.list || print_list(plans, chosen);
+  std::vector<VariantResult> results;
+  if (options.coverage || !options.cover.empty()) {
+    const Coverage coverage = find_coverage(plans, chosen, options.set);
+    if (options.coverage) fmt::print("{}\n", coverage.as_markdown());
+    if (!options.cover.empty()) results.push_back(cover(coverage, options.cover));
+    for (const VariantResult& row : results)
+      if (!row.holds()) fmt::print("{}", as_text(row));
   }
-  take_folder(options.folder);
-  MatrixRun matrix(options, std::move(plans), std::move(chosen));
+  if (options.list) return all_read && count(results).failed == 0 ? ok : failed;
+  if (chosen.empty()) return report_nothing(plans, selection);
+  MatrixRun matrix(options, *folder, plans, chosen);
+  folder->write_begun(matrix.results(), plans);
   const int signal = matrix.run();
-  const std::vector<VariantResult> results = matrix.ended();
-  print_disagreements(results);
-  write(results, options);
+  results.insert(results.begin(), matrix.results().begin(), matrix.results().end());
+  print_agreements(results);
+  folder->write(results, plans, circumstances_of(options));
   const MatrixCount n = count(results);
-  fmt::print("{} variant{}: {} ok, {} known to fall short, {} failed\n  tables: {}\n", results.size(),
-             results.size() == 1 ? "" : "s", n.ok, n.known, n.failed,
-             (options.folder / "matrix.md").string());
-  constexpr int by_signal = 128;
+  fmt::print("{} variant{}: {} ok, {} known to fall short, {} failed\n  tables: {}\n",
+             results.size() - n.not_run, results.size() - n.not_run == 1 ? "" : "s", n.ok, n.known, n.failed,
+             on_one_line((options.folder / "matrix.md").string()));
   if (signal != 0) {
-    fmt::print(stderr, "interrupted by {}: {} of {} variants are not in the tables\n", signal_name(signal),
-               matrix.results().size() - results.size(), matrix.results().size());
+    fmt::print(stderr, "interrupted by {}: {} of {} variants were not run; --failed runs them\n",
+               signal_name(signal), n.not_run, results.size());
+    constexpr int by_signal = 128;
     return by_signal + signal;
   }
-  return n.failed == 0 && unused == 0 ? ok : failed;
+  return n.failed == 0 ? ok : failed;
 }
 
 }  // namespace seam::cli

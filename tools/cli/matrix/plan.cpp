@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "../common.hpp"
+#include "../condition.hpp"
 #include "../vary.hpp"
-#include "condition.hpp"
 #include "pairs.hpp"
 
 namespace seam::cli {
@@ -81,12 +81,27 @@ class Planner {
         vary_(read_vary(block_, "matrix", scene, is_own_word)) {}
 
   void plan(MatrixPlan& plan) {
-    for (const Vary::Key& key : vary_.keys)
+    for (const Vary::Key& key : vary_.keys) {
+      plan.keys.push_back(key.label);
       if (key.path == restart_word) require_middle(key);
+    }
+    std::size_t left_out = 0;
+    std::set<std::string> names;
     for (const std::vector<std::string>& values : combinations(vary_, block_.where("vary"))) {
       Variant variant = make(values);
-      if (!is_left_out(variant)) plan.variants.push_back(std::move(variant));
+      if (is_left_out(variant)) {
+        ++left_out;
+      } else if (!names.insert(variant.name).second) {
+        throw Error(block_.where("vary"),
+                    fmt::format("matrix.vary: a value stands there twice: there are two variants '{}'",
+                                variant.name));
+      } else {
+        plan.variants.push_back(std::move(variant));
+      }
     }
+    if (block_.has("leave_out") && left_out == 0)
+      throw Error(block_.where("leave_out"),
+                  "matrix.leave_out: no variant is such; take it out, or mend the condition");
     if (plan.variants.empty()) throw Error(block_.where(), "matrix: `leave_out` leaves out all variants");
     refuse_values_that_never_do(plan.variants);
     mark_known(plan.variants);
@@ -131,7 +146,8 @@ class Planner {
 
   bool is_left_out(const Variant& variant) {
     if (!block_.has("leave_out")) return false;
-    return Condition(vary_, block_.text("leave_out"), block_.where("leave_out"))
+    return Condition(vary_, scene_.parameters, block_.text("leave_out"), block_.where("leave_out"),
+                     "matrix.leave_out")
         .holds(variant.values, read(variant.set).parameters);
   }
 
@@ -164,7 +180,10 @@ class Planner {
 
   void mark_known(std::vector<Variant>& variants) {
     for (const Parameters& known : block_.list("known")) {
-      const Condition condition(vary_, known.text("when"), known.where("when"));
+      const Condition condition(vary_, scene_.parameters, known.text("when"), known.where("when"),
+                                "matrix.known");
+      if (known.text("reason").empty())
+        throw Error(known.where("reason"), "matrix.known.reason: say why these variants fall short");
       bool any = false;
       for (Variant& variant : variants) {
         if (!condition.holds(variant.values, read(variant.set).parameters)) continue;
@@ -196,8 +215,11 @@ class Planner {
 
   [[nodiscard]] Agreement agree(const Parameters& p, const std::vector<Variant>& variants) const {
     const std::set<std::size_t> over = keys_over(p);
-    Agreement agreement{
-        fmt::format("{}", fmt::join(p.names("over"), ", ")), p.names("series"), p.number("within"), {}};
+    Agreement agreement{fmt::format("{}", fmt::join(p.names("over"), ", ")),
+                        p.names("series"),
+                        p.where("series"),
+                        p.number("within"),
+                        {}};
     std::map<std::vector<std::string>, std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < variants.size(); ++i) {
       std::vector<std::string> others;
@@ -222,6 +244,29 @@ class Planner {
 };
 
 }  // namespace
+
+std::string describe(const Agreement& agreement) {
+  return "agreement over " + agreement.over +
+         (agreement.series.empty() ? "" : fmt::format(" of {}", fmt::join(agreement.series, ", ")));
+}
+
+bool is_series(const std::string& column, const std::string& name) {
+  return column == name ||
+         (column.size() > name.size() + 1 && column.starts_with(name) && column[name.size()] == '.');
+}
+
+void require_series(const MatrixPlan& plan, const std::vector<std::string>& columns) {
+  for (const Agreement& agreement : plan.agreements)
+    for (const std::string& name : agreement.series) {
+      if (std::ranges::any_of(columns, [&](const std::string& column) { return is_series(column, name); }))
+        continue;
+      const std::string guess = nearest_name(name, columns);
+      throw Error(agreement.series_where,
+                  fmt::format("matrix.agree.series: the run records no series '{}'.{} It records: {}", name,
+                              guess.empty() ? "" : fmt::format(" Did you mean '{}'?", guess),
+                              fmt::join(columns, ", ")));
+    }
+}
 
 MatrixPlan plan_matrix(const std::filesystem::path& scene_file, const std::vector<std::string>& set) {
   const Scene scene = load(scene_file, set);

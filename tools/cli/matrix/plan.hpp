@@ -23,8 +23,9 @@ struct Variant {
 
 /// Variants that must leave the same series.
 struct Agreement {
-  std::string over;                              ///< the keys in which they differ, for reports
-  std::vector<std::string> series;               ///< none: all
+  std::string over;                 ///< the keys in which they differ, for reports
+  std::vector<std::string> series;  ///< none: all; a vector's name stands for its components
+  Location series_where;
   double within = 0;                             ///< relative to a series' largest value
   std::vector<std::vector<std::size_t>> groups;  ///< of variants, at least two in each
 };
@@ -32,9 +33,11 @@ struct Agreement {
 /// What a scene's `matrix` block asks for; without one, the scene as it stands.
 struct MatrixPlan {
   std::filesystem::path scene;
-  std::string tier = "fast";
-  double steps = 1;   ///< about how many a run takes
-  double middle = 0;  ///< of the scene's time, s
+  std::string tier;               ///< "" of a scene that cannot be read
+  bool is_named = false;          ///< by itself, not found in a folder: it is run whatever its tier
+  std::vector<std::string> keys;  ///< of `vary`, for readers
+  double steps = 1;               ///< about how many a run takes
+  double middle = 0;              ///< of the scene's time, s
   std::size_t checks = 0;
   std::vector<Variant> variants;
   std::vector<Agreement> agreements;
@@ -46,5 +49,14 @@ struct MatrixPlan {
 /// no variant can be read, a restart of a scene that has no time, a condition or an agreement that holds for
 /// nothing
 MatrixPlan plan_matrix(const std::filesystem::path& scene_file, const std::vector<std::string>& set);
+
+/// "agreement over ranks", and of which series.
+std::string describe(const Agreement& agreement);
+
+/// Whether a column of series.csv is the series of that name, or a component of it.
+bool is_series(const std::string& column, const std::string& name);
+
+/// @throws Error with the place of a series that an agreement names and no column is
+void require_series(const MatrixPlan& plan, const std::vector<std::string>& columns);
 
 }  // namespace seam::cli

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "seam/base/policy.hpp"
+
 namespace seam::cli {
 namespace {
 
@@ -24,7 +26,7 @@ std::string shortfalls(const VariantResult& result) {
   for (const Finding& finding : result.findings)
     if (!finding.holds)
       text += indented(fmt::format("{}: {}", finding.what, finding.message), "       ") + "\n";
-  if (result.holds() && result.is_unexpected())
+  if (result.holds() && result.verdict() == "FAIL")
     text += fmt::format(
         "       it passes, though it is declared to fall short ({}): take it out of `matrix.known`\n",
         result.known);
@@ -42,20 +44,29 @@ std::string cell(const std::string& text) {
 
 MatrixCount count(const std::vector<VariantResult>& results) {
   MatrixCount count;
-  for (const VariantResult& result : results)
-    ++(result.is_unexpected() ? count.failed : result.known.empty() ? count.ok : count.known);
+  for (const VariantResult& result : results) {
+    const std::string verdict = result.verdict();
+    ++(verdict == "ok"      ? count.ok
+       : verdict == "known" ? count.known
+       : verdict == "FAIL"  ? count.failed
+                            : count.not_run);
+  }
   return count;
 }
 
-std::string as_text(const VariantResult& result) {
-  std::string text = fmt::format("{:<5}{}: {} ({} {}, {:.2f} s)\n", result.verdict(), result.scene,
-                                 called(result), result.findings.size(),
-                                 result.findings.size() == 1 ? "finding" : "findings", result.seconds);
-  if (result.verdict() == "known") return text + "       " + result.known + "\n";
+std::string as_text(const VariantResult& result, bool is_pending) {
+  // A known variant that holds so far may still disagree with others.
+  const bool is_open = is_pending && !result.known.empty() && result.holds();
+  std::string text =
+      fmt::format("{:<5} {}: {} ({} {}, {:.2f} s)\n", is_open ? "ran" : result.verdict(),
+                  on_one_line(result.scene), on_one_line(called(result)), result.findings.size(),
+                  result.findings.size() == 1 ? "finding" : "findings", result.seconds);
+  if (is_open) return text;
+  if (result.verdict() == "known") return text + "       " + on_one_line(result.known) + "\n";
   text += shortfalls(result);
-  if (result.is_unexpected()) {
-    if (!result.log.empty()) text += "       log: " + result.log.string() + "\n";
-    text += "       alone: " + result.command + "\n";
+  if (result.verdict() == "FAIL") {
+    if (!result.log.empty()) text += "       log: " + on_one_line(result.log.string()) + "\n";
+    if (!result.command.empty()) text += "       alone: " + on_one_line(result.command) + "\n";
   }
   return text;
 }
@@ -79,25 +90,26 @@ std::string as_markdown(const std::vector<VariantResult>& results,
 }
 
 nlohmann::json as_json(const std::vector<VariantResult>& results) {
-  const MatrixCount n = count(results);
-  nlohmann::json all{
-      {"ok", n.ok}, {"known", n.known}, {"failed", n.failed}, {"variants", nlohmann::json::array()}};
+  auto rows = nlohmann::json::array();
   for (const VariantResult& r : results) {
     auto findings = nlohmann::json::array();
     for (const Finding& f : r.findings)
       findings.push_back(
           {{"what", f.what}, {"holds", f.holds}, {"broken", f.is_broken}, {"message", f.message}});
-    all["variants"].push_back({{"scene", r.scene},
-                               {"variant", r.name},
-                               {"verdict", r.verdict()},
-                               {"known", r.known},
-                               {"seconds", r.seconds},
-                               {"peak_memory_bytes", r.bytes},
-                               {"log", r.log.string()},
-                               {"command", r.command},
-                               {"findings", findings}});
+    auto values = nlohmann::json::object();
+    for (const auto& [key, value] : r.values) values[key] = value;
+    rows.push_back({{"scene", r.scene},
+                    {"variant", r.name},
+                    {"values", values},
+                    {"verdict", r.verdict()},
+                    {"known", r.known},
+                    {"seconds", r.seconds},
+                    {"peak_memory_bytes", r.bytes},
+                    {"log", r.log.string()},
+                    {"command", r.command},
+                    {"findings", findings}});
   }
-  return all;
+  return rows;
 }
 
 }  // namespace seam::cli

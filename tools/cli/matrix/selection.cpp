@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <numeric>
+#include <set>
 
 #include "seam/base/diagnostics.hpp"
 
@@ -15,10 +16,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A pattern in which * and ? alone have a meaning: names of variants may hold brackets.
+std::string pattern_of(const std::string& filter) {
+  std::string pattern = "*";
+  for (const char c : filter) pattern += std::string(c == '[' || c == ']' || c == '\\' ? "\\" : "") + c;
+  return pattern + "*";
+}
+
 bool matches(const std::string& filter, const MatrixPlan& plan, const Variant& variant) {
   const std::string name = plan.scene.string() + ": " + variant.name;
   return filter.empty() || name.find(filter) != std::string::npos ||
-         fnmatch(("*" + filter + "*").c_str(), name.c_str(), 0) == 0;
+         fnmatch(pattern_of(filter).c_str(), name.c_str(), 0) == 0;
 }
 
 /// For each variant the first one that it must, directly or by others, agree with; itself when there is none.
@@ -64,21 +72,29 @@ std::string parse_tier(const std::string& text) {
   return text;
 }
 
-std::vector<fs::path> find_scenes(const std::vector<std::string>& files_and_folders) {
-  std::vector<fs::path> scenes;
+std::vector<FoundScene> find_scenes(const std::vector<std::string>& files_and_folders) {
+  std::vector<FoundScene> scenes;
+  std::set<fs::path> seen;
+  const auto add = [&](const fs::path& file, bool is_named) {
+    std::error_code error;
+    if (seen.insert(fs::weakly_canonical(file, error)).second) scenes.push_back({file, is_named});
+  };
   for (const std::string& name : files_and_folders) {
     if (!fs::is_directory(name)) {
-      scenes.emplace_back(name);
+      add(name, true);
       continue;
     }
     std::vector<fs::path> here;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(name))
-      if (entry.is_regular_file() &&
-          (entry.path().extension() == ".yaml" || entry.path().extension() == ".yml"))
-        here.push_back(entry.path());
+    for (auto entry = fs::recursive_directory_iterator(name); entry != fs::recursive_directory_iterator();
+         ++entry) {
+      const bool is_hidden = entry->path().filename().native().starts_with('.');
+      if (is_hidden && entry->is_directory()) entry.disable_recursion_pending();
+      if (!is_hidden && entry->is_regular_file() && entry->path().extension() == ".yaml")
+        here.push_back(entry->path());
+    }
     if (here.empty()) throw Error({name}, "the folder holds no scenes: no file whose name ends with .yaml");
     std::ranges::sort(here);
-    scenes.insert(scenes.end(), here.begin(), here.end());
+    for (const fs::path& file : here) add(file, false);
   }
   return scenes;
 }
@@ -88,15 +104,19 @@ std::vector<VariantId> select(const std::vector<MatrixPlan>& plans, const Select
   std::size_t bundle_number = 0;
   for (std::size_t p = 0; p < plans.size(); ++p) {
     const MatrixPlan& plan = plans[p];
-    if (selection.tier != "all" && selection.tier != plan.tier) continue;
+    const bool in_tier =
+        selection.tier == "all" || plan.tier.empty() || plan.is_named || selection.tier == plan.tier;
+    if (!in_tier) continue;
     const std::vector<std::size_t> first = bundles(plan);
+    std::set<std::size_t> failed;  // bundles
+    for (std::size_t v = 0; v < first.size() && selection.failed; ++v)
+      if (selection.failed->contains(name_of(plan, plan.variants[v]))) failed.insert(first[v]);
     std::vector<std::size_t> part(first.size());
     for (std::size_t v = 0; v < first.size(); ++v) {
       part[v] = first[v] == v ? bundle_number++ : part[first[v]];
       const bool in_shard = !selection.shard || part[v] % selection.shard->second + 1 ==
                                                     static_cast<std::size_t>(selection.shard->first);
-      const bool is_wanted =
-          !selection.failed || selection.failed->contains({plan.scene.string(), plan.variants[v].name});
+      const bool is_wanted = !selection.failed || failed.contains(first[v]);
       if (in_shard && is_wanted && matches(selection.filter, plan, plan.variants[v]))
         chosen.emplace_back(p, v);
     }

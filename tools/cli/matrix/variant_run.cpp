@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 
 #include "../command.hpp"
 #include "../json_file.hpp"
@@ -63,13 +64,15 @@ std::vector<std::vector<std::string>> commands(const MatrixPlan& plan, const Var
 }
 
 /// Why a run ended without having come to its end.
-std::string why_it_broke_off(const Task& task, const TaskEnd& end) {
+std::string why_it_broke_off(const Task& task, const TaskEnd& end, double limit) {
   constexpr int by_signal = 128, not_started = 127;
   if (end.out_of_time)
-    return fmt::format("it took longer than it may, and was ended after {:.1f} s", end.seconds);
+    return fmt::format("it took longer than the {:.6g} s that it may, and was ended", limit);
   std::string said = first_lines(task.steps[end.last].output);
   if (!said.empty()) said.insert(0, "\n");
-  if (end.code == not_started) return "it could not be started";
+  if (end.code == not_started)
+    return has_mpirun() ? "it could not be started"
+                        : "it could not be started: there is no mpirun on the PATH";
   if (end.code > by_signal)
     return fmt::format("it was ended by signal {} ({}){}", end.code - by_signal,
                        strsignal(end.code - by_signal), said);
@@ -81,6 +84,7 @@ std::string why_it_broke_off(const Task& task, const TaskEnd& end) {
 bool VariantResult::holds() const { return std::ranges::all_of(findings, &Finding::holds); }
 
 std::string VariantResult::verdict() const {
+  if (findings.empty()) return "not run";
   if (is_unexpected()) return "FAIL";
   return known.empty() ? "ok" : "known";
 }
@@ -129,18 +133,25 @@ Task run_task(const MatrixPlan& plan, const Variant& variant, const std::vector<
   return task;
 }
 
-VariantResult describe(const MatrixPlan& plan, const Variant& variant, const std::vector<std::string>& set) {
+VariantResult describe(const MatrixPlan& plan, const Variant& variant, const std::vector<std::string>& set,
+                       const std::filesystem::path& folder) {
   VariantResult result;
   result.scene = plan.scene.string();
   result.name = variant.name;
   result.known = variant.known;
-  for (const std::vector<std::string>& words : commands(plan, variant, set, "seam"))
+  for (std::size_t k = 0; k < variant.values.size(); ++k)
+    result.values.emplace_back(plan.keys[k], variant.values[k]);
+  for (std::vector<std::string> words : commands(plan, variant, set, "seam")) {
+    append(words, trust_as_words());
+    append(words, {"--folder", folder.string() + "-alone"});
+    if (result.command.empty()) words.emplace_back("--overwrite");
     result.command += (result.command.empty() ? "" : " && ") + as_shell(words);
+  }
   return result;
 }
 
 void judge(VariantResult& result, std::size_t checks, const Task& task, const TaskEnd& end,
-           const std::filesystem::path& folder) {
+           const std::filesystem::path& folder, double limit) {
   result.log = task.steps[end.last].output;
   result.seconds = end.seconds;
   const nlohmann::json summary = read_json(folder / "summary.json");
@@ -148,26 +159,29 @@ void judge(VariantResult& result, std::size_t checks, const Task& task, const Ta
   // A check that fails makes exit code 1, too.
   const bool is_well = is_finished && !end.out_of_time && end.last + 1 == task.steps.size() &&
                        (end.code == ok || end.code == failed);
-  result.findings.push_back({the_run, is_well, !is_well, is_well ? "" : why_it_broke_off(task, end)});
+  result.findings.push_back({the_run, is_well, !is_well, is_well ? "" : why_it_broke_off(task, end, limit)});
   if (!is_well) return;
   result.bytes = summary.value("peak_memory_bytes", 0.0);
   const nlohmann::json& found = summary.at("checks");
-  if (found.size() != checks) {
+  if (found.size() < checks) {
     result.findings.front() = {
         the_run, false, true,
         "its first part came to the end of the scene's time: no step ends in its middle"};
     return;
   }
+  std::map<std::string, int> times;  // a number may be checked at several times
   for (const nlohmann::json& check : found) {
+    const std::string that = check.at("that");
+    const int time = ++times[that];
     const nlohmann::json& value = check.at("value");
     result.findings.push_back(
-        {check.at("that"), check.at("passed"), false,
+        {time == 1 ? that : fmt::format("{} ({})", that, time), check.at("passed"), false,
          fmt::format("{}, expected {}",
                      value.is_number() ? fmt::format("{:.6g}", value.get<double>()) : "no number",
                      check.at("expected").get<std::string>())});
   }
   if (result.holds() && end.code != ok)
-    result.findings.front() = {the_run, false, true, why_it_broke_off(task, end)};
+    result.findings.front() = {the_run, false, true, why_it_broke_off(task, end, limit)};
 }
 
 }  // namespace seam::cli

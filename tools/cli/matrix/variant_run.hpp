@@ -22,17 +22,18 @@ struct Finding {
 struct VariantResult {
   std::string scene;
   std::string name;
-  std::string known;  ///< why it falls short today, "" when it is to pass
-  std::vector<Finding> findings;
-  std::string command;        ///< which runs it alone, for a shell
-  std::filesystem::path log;  ///< empty when it was not run
+  std::vector<std::pair<std::string, std::string>> values;  ///< by key of `vary`
+  std::string known;              ///< why it falls short today, "" when it is to pass
+  std::vector<Finding> findings;  ///< none: it was not run
+  std::string command;            ///< which runs it alone, for a shell
+  std::filesystem::path log;      ///< empty when it was not run
   double seconds = 0;
   double bytes = 0;  ///< peak memory of all ranks
 
   [[nodiscard]] bool holds() const;
   /// Neither passed as it should nor fell short as was declared.
   [[nodiscard]] bool is_unexpected() const { return holds() != known.empty(); }
-  /// "ok", "known" or "FAIL".
+  /// "ok", "known", "FAIL" or "not run".
   [[nodiscard]] std::string verdict() const;
 };
 
@@ -52,11 +53,12 @@ Estimate read_estimate(const std::filesystem::path& output, const TaskEnd& end);
 Task run_task(const MatrixPlan& plan, const Variant& variant, const std::vector<std::string>& set,
               const std::filesystem::path& folder, const Estimate& estimate, int cores);
 
-/// A variant before it was run.
-VariantResult describe(const MatrixPlan& plan, const Variant& variant, const std::vector<std::string>& set);
+/// A variant before it was run. @param folder of its results; what runs it alone has one beside that
+VariantResult describe(const MatrixPlan& plan, const Variant& variant, const std::vector<std::string>& set,
+                       const std::filesystem::path& folder);
 
-/// Looks at what its run left. @param checks that the scene has
+/// Looks at what its run left. @param checks that the scene has @param limit s that it may take
 void judge(VariantResult& result, std::size_t checks, const Task& task, const TaskEnd& end,
-           const std::filesystem::path& folder);
+           const std::filesystem::path& folder, double limit);
 
 }  // namespace seam::cli
