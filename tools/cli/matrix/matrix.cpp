@@ -278,7 +278,7 @@ int verify_matrix(const MatrixOptions& options) {
   if (options.list) return all_read && count(results).failed == 0 ? ok : failed;
   if (chosen.empty()) return report_nothing(plans, selection);
   MatrixRun matrix(options, *folder, plans, chosen);
-  folder->write_begun(matrix.results(), plans);
+  folder->write_table(matrix.results(), plans);
   const int signal = matrix.run();
   results.insert(results.begin(), matrix.results().begin(), matrix.results().end());
   print_agreements(results);

@@ -134,11 +134,6 @@ void MatrixFolder::write_table(const std::vector<VariantResult>& results,
                         table.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-void MatrixFolder::write_begun(const std::vector<VariantResult>& results,
-                               const std::vector<MatrixPlan>& plans) const {
-  write_table(results, plans);
-}
-
 void MatrixFolder::write(const std::vector<VariantResult>& results, const std::vector<MatrixPlan>& plans,
                          const std::vector<std::pair<std::string, std::string>>& circumstances) const {
   write_table(results, plans);

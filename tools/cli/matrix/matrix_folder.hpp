@@ -34,15 +34,15 @@ class MatrixFolder {
   /// An empty folder for a variant. @throws Error also when a link is in the way
   void make_new(const std::filesystem::path& folder) const;
 
-  /// Writes the tables. The JSON keeps what it says of variants that these scenes still have and that are not
-  /// among the results, and of other scenes.
+  /// Writes the table matrix.json, which keeps what it says of variants that these scenes still have and that
+  /// are not among the results, and of other scenes. Also before anything runs: what is interrupted is to be
+  /// told from what passed.
+  void write_table(const std::vector<VariantResult>& results, const std::vector<MatrixPlan>& plans) const;
+  /// Writes it, and the tables of these results alone, for people and for continuous integration.
   void write(const std::vector<VariantResult>& results, const std::vector<MatrixPlan>& plans,
              const std::vector<std::pair<std::string, std::string>>& circumstances) const;
-  /// Before anything runs: what is interrupted is to be told from what passed.
-  void write_begun(const std::vector<VariantResult>& results, const std::vector<MatrixPlan>& plans) const;
 
  private:
-  void write_table(const std::vector<VariantResult>& results, const std::vector<MatrixPlan>& plans) const;
   std::filesystem::path path_;
   int lock_ = -1;
 };
