@@ -12,13 +12,15 @@
 /// The weak form of a porous body whose skeleton deforms and whose pores are filled with an incompressible
 /// fluid: the balances (2.43), (2.44) and (2.46) of the thesis, term by term, pulled back to the reference
 /// configuration. With w = v - du/dt, m = J phi, C = cof F = J F^-T:
-///   mass:     (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w> - (dp, q)
-///   fluid:    (dv, rho_F J (dv/dt - grad v du/dt)) - (grad0 dv, p C) + (dv, mu phi C K^-1 C^T w) - (dv,
-///   rho_F J b) mixture:  (du, rho_S d2u/dt2) + (grad0 du, P_skeleton - p' C) - (du, phi C grad0 p) - (du, mu
-///   phi^2 C K^-1 C^T w)
-///             - (du, rho_S b)
-/// where p' = Porosity::back_pressure. The printed forms (2.57) and (2.121) are damaged; these follow from
-/// the balances.
+///   mass:    (dp, dm/dt) - (grad0 dp, phi C^T w) + <dp, phi C N.w> - (dp, q)
+///   fluid:   (dv, rho_F J a) - (grad0 dv, p C) + (dv, mu phi C K^-1 C^T w) - (dv, rho_F J b_F),
+///            J a = J dv/dt - grad0 v C^T du/dt
+///   mixture: (du, rho_S d2u/dt2) + (grad0 du, P_skeleton - p' C) + (du, rho_F m a) - (du, rho_S b + rho_F m
+///   b_F)
+/// where p' = Porosity::back_pressure. The mixture's balance is that of its total momentum. (2.46) has
+/// -phi C grad0 p - mu phi^2 C K^-1 C^T w in place of the last of its fluid's terms: by the fluid's balance
+/// the same, but once pressures are imposed weakly <du, phi (p - p_imposed) C N> is missing from the sum of
+/// all forces. The printed weak forms (2.57) and (2.121) are damaged; these follow from the balances.
 namespace seam::poro {
 
 using u = Vector<0>;
@@ -154,67 +156,107 @@ struct MassSource {
   }
 };
 
-/// Momentum of the fluid in the pores.
+/// Momentum of the fluid in the pores without inertia.
 struct PoreMomentum {
-  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Rate<v>, Gradient<v>, Value<p>>;
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Value<p>>;
   using Tests = Slots<Value<v>, Gradient<v>>;
   PoreFlow flow;
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     const Deformation<dim, T> d(s.gradient(u{}));
-    const T& j = d.invariant[2];
     const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
-    const T m = flow.porosity.fluid_volume(j, s.value(p{}));
+    const T m = flow.porosity.fluid_volume(d.invariant[2], s.value(p{}));
     r.value(v{}) += flow.template drag<dim, T>(d, m, w);
     r.gradient(v{}) -= s.value(p{}) * d.cofactor;
-    if (flow.density == 0) return;
-    // The observer moves with the skeleton: J grad v du/dt = grad0 v C^T du/dt.
-    r.value(v{}) +=
-        flow.density * (j * s.rate(v{}) - s.gradient(v{}) * (transpose(d.cofactor) * s.rate(u{})));
   }
 };
 
-/// Momentum of the mixture without inertia.
-struct Mixture {
-  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Value<p>, Gradient<p>>;
-  using Tests = Slots<Value<u>, Gradient<u>>;
+/// Momentum of the mixture without inertia: (grad0 du, P_skeleton - p' C).
+struct MixtureStress {
+  using pressure = Scalar<1>;
+  using Reads = Slots<Gradient<u>, Value<pressure>>;
+  using Tests = Slots<Gradient<u>>;
   PotentialPointer skeleton;
+  Porosity porosity;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    const T m = porosity.fluid_volume(d.invariant[2], s.value(pressure{}));
+    r.gradient(u{}) += d.stress(*skeleton) - porosity.back_pressure(m, s.value(pressure{})) * d.cofactor;
+  }
+};
+
+/// -(du, phi C grad0 p) - (du, mu phi^2 C K^-1 C^T w): what (2.46) says of the fluid instead of its inertia.
+struct PrintedExchange {
+  using Reads = Slots<Gradient<u>, Rate<u>, Value<v>, Value<p>, Gradient<p>>;
+  using Tests = Slots<Value<u>>;
   PoreFlow flow;
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     const Deformation<dim, T> d(s.gradient(u{}));
     const T m = flow.porosity.fluid_volume(d.invariant[2], s.value(p{})), phi = m / d.invariant[2];
-    r.gradient(u{}) += d.stress(*skeleton) - flow.porosity.back_pressure(m, s.value(p{})) * d.cofactor;
     const Vec<dim, T> w = s.value(v{}) - s.rate(u{});
     r.value(u{}) -= phi * (d.cofactor * s.gradient(p{}) + flow.template drag<dim, T>(d, m, w));
   }
 };
 
-/// -(dv, rho_F J b) on the fluid in the pores.
-struct FluidLoad {
-  using Reads = Slots<Gradient<u>>;
-  using Tests = Slots<Value<v>>;
-  std::vector<Expression> force;  ///< m/s^2, of the place in the reference configuration
+/// What the mixture gets of a force on the fluid in its pores: phi of it, or what PrintedExchange has of it.
+struct MixtureShare {
+  Porosity porosity;
+  bool printed;
+  template <class T>
+  [[nodiscard]] T operator()(const T& jacobian, const T& pressure) const {
+    return printed ? T(0.0) : T(porosity.fluid_volume(jacobian, pressure) / jacobian);
+  }
+};
+
+/// rho_F J a on the fluid in the pores, and phi times that on the mixture.
+struct PoreInertia {
+  using Reads = Slots<Gradient<u>, Rate<u>, Rate<v>, Gradient<v>, Value<p>>;
+  using Tests = Slots<Value<u>, Value<v>>;
   double density;
+  MixtureShare share;
+  template <int dim, class T>
+  void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    const Deformation<dim, T> d(s.gradient(u{}));
+    // The observer moves with the skeleton: J grad v du/dt = grad0 v C^T du/dt.
+    const Vec<dim, T> force =
+        density * (d.invariant[2] * s.rate(v{}) - s.gradient(v{}) * (transpose(d.cofactor) * s.rate(u{})));
+    r.value(v{}) += force;
+    r.value(u{}) += share(d.invariant[2], s.value(p{})) * force;
+  }
+};
+
+/// -(dv, rho_F J b_F) on the fluid in the pores, and phi times that on the mixture.
+struct FluidLoad {
+  using Reads = Slots<Gradient<u>, Value<p>>;
+  using Tests = Slots<Value<u>, Value<v>>;
+  std::vector<Expression> force;  ///< b_F, m/s^2, of the place in the reference configuration
+  double density;
+  MixtureShare share;
   template <int dim, class T>
   void operator()(const Point<dim>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Deformation<dim, T> d(s.gradient(u{}));
+    const T j = Deformation<dim, T>(s.gradient(u{})).invariant[2];
     Vec<dim, double> value;
     for (int i = 0; i < dim; ++i) value[i] = density * force[i](x.position.c.data(), dim, x.time);
-    r.value(v{}) -= d.invariant[2] * value;
+    r.value(v{}) -= j * value;
+    r.value(u{}) -= (share(j, s.value(p{})) * j) * value;
   }
 };
 
 /// The same with the force interpolated from the nodes.
 struct NodalFluidLoad {
-  using force = Vector<2>;
-  using Reads = Slots<Gradient<u>, Value<force>>;
-  using Tests = Slots<Value<v>>;
+  using force = Vector<3>;
+  using Reads = Slots<Gradient<u>, Value<p>, Value<force>>;
+  using Tests = Slots<Value<u>, Value<v>>;
   double density;
+  MixtureShare share;
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Deformation<dim, T> d(s.gradient(u{}));
-    r.value(v{}) -= (density * d.invariant[2]) * s.value(force{});
+    const T j = Deformation<dim, T>(s.gradient(u{})).invariant[2];
+    const Vec<dim, T> load = (density * j) * s.value(force{});
+    r.value(v{}) -= load;
+    r.value(u{}) -= share(j, s.value(p{})) * load;
   }
 };
 

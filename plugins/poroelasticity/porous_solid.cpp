@@ -110,7 +110,10 @@ void PorousSolid::add_balances(FieldSetup& setup, const Region& region) const {
   const PoreFlow& flow = region.flow;
   setup.add_cell_term(make_term(Storage{flow.porosity, conservative}), all_unknowns);
   setup.add_cell_term(make_term(PoreMomentum{flow}), all_unknowns);
-  setup.add_cell_term(make_term(Mixture{region.skeleton, flow}), all_unknowns);
+  setup.add_cell_term(make_term(MixtureStress{region.skeleton, flow.porosity}), {"displacement", "pressure"});
+  if (is_printed()) setup.add_cell_term(make_term(PrintedExchange{flow}), all_unknowns);
+  if (flow.density > 0)
+    setup.add_cell_term(make_term(PoreInertia{flow.density, share(region)}), all_unknowns);
   if (region.density > 0) setup.add_cell_term(make_term(BodyInertia{region.density}), {"displacement"});
   setup.add_surface_term(make_term(Seepage{flow.porosity}, 4), all_unknowns);
 }
@@ -140,14 +143,21 @@ void PorousSolid::add_loads(FieldSetup& setup) const {
   add_body_loads(setup, body_force_, "displacement", densities);
   fluid_force_.require_mass(fluid_density_ > 0, "fluid_density");
   fluid_force_.give(setup);
-  if (fluid_force_.is_nodal())
-    setup.add_cell_term(make_term(NodalFluidLoad{fluid_density_}, 1),
-                        {"displacement", "velocity", fluid_force_.key()});
-  else if (fluid_force_.is_given())
-    setup.add_cell_term(make_term(FluidLoad{fluid_force_.per_mass(), fluid_density_}, 1),
-                        {"displacement", "velocity"});
+  for (std::size_t k = 0; k < regions_.size() && fluid_force_.is_given(); ++k)
+    setup.within(static_cast<int>(k), [&] { add_fluid_load(setup, regions_[k]); });
   if (parameters_.has("mass_source"))
     setup.add_cell_term(make_term(MassSource{parameters_.expression("mass_source")}, 1), {"pressure"});
+}
+
+void PorousSolid::add_fluid_load(FieldSetup& setup, const Region& region) const {
+  std::vector<std::string> operands = all_unknowns;
+  if (fluid_force_.is_nodal()) {
+    operands.push_back(fluid_force_.key());
+    setup.add_cell_term(make_term(NodalFluidLoad{fluid_density_, share(region)}, 1), operands);
+  } else {
+    setup.add_cell_term(make_term(FluidLoad{fluid_force_.per_mass(), fluid_density_, share(region)}, 1),
+                        operands);
+  }
 }
 
 void PorousSolid::add_boundary(FieldSetup& setup, const Parameters& condition,

@@ -31,8 +31,13 @@ class PorousSolid final : public Physics {
   void add_stabilisation(FieldSetup& setup, const Region& region) const;
   static void add_outputs(FieldSetup& setup, const Region& region);
   void add_loads(FieldSetup& setup) const;
+  void add_fluid_load(FieldSetup& setup, const Region& region) const;
   void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& name) const;
   static const std::vector<InitialKey>& initial_keys();
+  [[nodiscard]] bool is_printed() const { return parameters_.text("momentum") == "printed"; }
+  [[nodiscard]] MixtureShare share(const Region& region) const {
+    return {region.flow.porosity, is_printed()};
+  }
 
   Parameters parameters_;
   std::vector<Region> regions_;  ///< one at least

@@ -95,6 +95,12 @@ Schema PorousSolid::schema() {
            "for a scheme of second order over two steps",
            {"conservative", "chain_rule"})
       .otherwise("conservative");
+  s.choice("momentum",
+           "Balance of the mixture's momentum: `total`, in which forces balance to rounding; `printed`: with "
+           "pressure gradient and drag of the pores, thesis (2.46), short of force near boundaries whose "
+           "pressure changes fast",
+           {"total", "printed"})
+      .otherwise("total");
   Schema stabilisation("Of order 1.");
   stabilisation
       .choice(
@@ -108,7 +114,7 @@ Schema PorousSolid::schema() {
   stabilisation.number("momentum", "Factor of `residual`").otherwise("0.5").above(0);
   s.object("stabilisation", "What keeps velocity and pressure of order 1 stable", stabilisation)
       .otherwise("{}");
-  declare_body_forces(s, {{"body_force", "On the mixture, per mass of the skeleton"},
+  declare_body_forces(s, {{"body_force", "On the skeleton, per its mass"},
                           {"fluid_body_force", "On the fluid in the pores, per mass"}});
   s.expression(
        "mass_source",

@@ -63,7 +63,8 @@ struct NavierStokes {
   }
 };
 
-using Terms = std::vector<std::shared_ptr<const Term>>;
+/// Terms and the unknowns that they read.
+using Terms = std::vector<std::pair<std::shared_ptr<const Term>, std::vector<std::string>>>;
 
 class Carrier final : public Physics {
  public:
@@ -71,10 +72,7 @@ class Carrier final : public Physics {
       : unknowns_(std::move(unknowns)), terms_(std::move(terms)) {}
   [[nodiscard]] std::vector<Unknown> unknowns(int) const override { return unknowns_; }
   void build(FieldSetup& setup) const override {
-    std::vector<std::string> names;
-    for (const Unknown& u : unknowns_) names.push_back(u.name);
-    for (const auto& term : terms_)
-      setup.add_cell_term(term, {names.begin(), names.begin() + operands(*term)});
+    for (const auto& [term, operands] : terms_) setup.add_cell_term(term, operands);
     // Zeros would spare the assembly work.
     for (const Unknown& u : unknowns_)
       for (int c = 0; c < u.components; ++c)
@@ -82,7 +80,6 @@ class Carrier final : public Physics {
   }
 
  private:
-  static long operands(const Term& term) { return static_cast<long>(term.signature(2).components.size()); }
   std::vector<Unknown> unknowns_;
   Terms terms_;
 };
@@ -150,14 +147,20 @@ double run(const std::string& what, CellType cell, int n, const std::vector<Unkn
 void compare_porous_with_solid(int n) {
   const auto energy = std::make_shared<LawPotential<3, Energy>>(Energy{});
   const Unknown displacement{"displacement", 2, 1, 2, ""};
-  const double solid = run("quad4 solid tangent", CellType::quadrilateral, n, {displacement},
-                           {make_term(solid::InternalForce{{energy}}), make_term(BodyInertia{1})}, 0.1);
+  const std::vector<std::string> u{"displacement"}, up{"displacement", "pressure"},
+      all{"displacement", "velocity", "pressure"};
+  const double solid =
+      run("quad4 solid tangent", CellType::quadrilateral, n, {displacement},
+          {{make_term(solid::InternalForce{{energy}}), u}, {make_term(BodyInertia{1}), u}}, 0.1);
   const poro::Porosity porosity{0.4, false, 10, 0.5};
   const poro::PoreFlow flow{1, 1, porosity, true, {5, 0, 0, 0, 10, 0, 0, 0, 7}};
   const double porous = run("quad4 porous tangent", CellType::quadrilateral, n,
                             {displacement, {"velocity", 2, 1, 1, ""}, {"pressure", 1, 1, 1, ""}},
-                            {make_term(poro::Storage{porosity, true}), make_term(poro::PoreMomentum{flow}),
-                             make_term(poro::Mixture{energy, flow}), make_term(BodyInertia{1})},
+                            {{make_term(poro::Storage{porosity, true}), all},
+                             {make_term(poro::PoreMomentum{flow}), all},
+                             {make_term(poro::PoreInertia{1, {porosity, false}}), all},
+                             {make_term(poro::MixtureStress{energy, porosity}), up},
+                             {make_term(BodyInertia{1}), u}},
                             0.1);
   // 4 nodes with 2 and with 5 unknowns.
   constexpr double solid_entries = 8 * 8, porous_entries = 20 * 20;
@@ -172,10 +175,11 @@ int main(int argc, char** argv) {
             compared = argc > 3 ? std::atoi(argv[3]) : 0;
   if (square > 0)
     run("quad4 Navier-Stokes tangent", CellType::quadrilateral, square,
-        {{"velocity", 2, 1, 0, ""}, {"pressure", 1, 1, 0, ""}}, {make_term(NavierStokes{})});
+        {{"velocity", 2, 1, 0, ""}, {"pressure", 1, 1, 0, ""}},
+        {{make_term(NavierStokes{}), {"velocity", "pressure"}}});
   if (cube > 0)
     run("hex8 neo-Hookean tangent", CellType::hexahedron, cube, {{"displacement", 3, 1, 0, ""}},
-        {make_term(NeoHookean{})});
+        {{make_term(NeoHookean{}), {"displacement"}}});
   if (compared > 0) compare_porous_with_solid(compared);
   MPI_Finalize();
 }
