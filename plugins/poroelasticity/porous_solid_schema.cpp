@@ -105,10 +105,10 @@ Schema PorousSolid::schema() {
   stabilisation
       .choice(
           "method",
-          "`interior`: a penalty on jumps of gradients across faces, thesis (2.123), (2.124); `residual`: "
-          "with the momentum balance in each cell, which leaves a narrower matrix",
-          {"interior", "residual"})
-      .otherwise("interior");
+          "`residual`: with the momentum balance in each cell; `interior`: a penalty on jumps of gradients "
+          "across faces, thesis (2.123), (2.124), twice the error of the pressure and twice the time",
+          {"residual", "interior"})
+      .otherwise("residual");
   stabilisation.number("pressure", "gamma_p of `interior`").otherwise("0.05").above(0);
   stabilisation.number("divergence", "gamma_div of `interior`").otherwise("5e-5").at_least(0);
   stabilisation.number("momentum", "Factor of `residual`").otherwise("0.5").above(0);

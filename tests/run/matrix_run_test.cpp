@@ -142,8 +142,8 @@ TEST_CASE("a variant that takes longer than it may is ended, with all that it st
   const std::string begun = (folder.path / "begun").string();
   (void)folder.file("scene.yaml", slow("  vary:\n    functions.slow.from: [2, 0.45]\n    ranks: [1, 2]\n"
                                        "  leave_out: functions.slow.from < 1 && ranks == 1\n"));
-  const Result result = verify(
-      folder, "--time-limit 8s --set functions.slow.seconds=100000 --set functions.slow.begun=" + begun);
+  const Result result =
+      verify(folder, "--time-limit 8s --set functions.slow.seconds=150 --set functions.slow.begun=" + begun);
   INFO(result.output);
   CHECK(result.code == 1);
   auto all = verdicts(folder);
@@ -167,8 +167,7 @@ TEST_CASE("a signal ends a matrix and all that it started") {
   Process process(
       "verify --matrix " + (folder.path / "scene.yaml").string() + " --folder " +
           (folder.path / "matrix").string() +
-          " --jobs 1 --filter ranks=1 --set functions.slow.seconds=100000 --set functions.slow.begun=" +
-          begun,
+          " --jobs 1 --filter ranks=1 --set functions.slow.seconds=600 --set functions.slow.begun=" + begun,
       "", (folder.path / "log").string());
   process.wait_for([&] { return std::filesystem::exists(begun); });
   process.send(SIGTERM);
@@ -305,7 +304,7 @@ TEST_CASE("two matrices do not share a folder, and coverage that is asked for is
   {
     Process process("verify --matrix " + (folder.path / "scene.yaml").string() + " --folder " +
                         (folder.path / "matrix").string() +
-                        " --set functions.slow.from=0.45 --set functions.slow.seconds=100000 --set "
+                        " --set functions.slow.from=0.45 --set functions.slow.seconds=600 --set "
                         "functions.slow.begun=" +
                         begun,
                     "", (folder.path / "log").string());
