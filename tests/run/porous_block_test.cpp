@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A porous block in a fluid: its state of rest, and the sum of all forces.
+#include <cmath>
+
+#include "scene_run.hpp"
+
+using namespace seam_cli_test;
+
+namespace {
+
+/// One half of a block that stands in a fluid under pressure, its foot held; (lx - 1) x, (ly - 1) y is where
+/// it rests: the equations P_xx = -p0 ly, P_yy = -p0 lx - q of its homogeneous strain, solved by themselves.
+const std::string block_scene = R"(
+title: A porous block in a fluid under pressure
+dimension: 2
+plugins: [solid, cutfem_fluid, poroelasticity, nitsche_fsci]
+parameters: {n: 8, p0: 3, q: 1, permeability: 1e-3, end: 3, step: 1, tolerance: 1e-8}
+meshes:
+  tank: {grid: {from: [0, 0], to: [1, 2.5], cells: ["2*n", "5*n"]}}
+  block: {grid: {from: [0, 0], to: [0.25, 1.85], cells: ["n/2", "2*n"]}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: tank
+    density: 1
+    convection: false
+    viscosity: 1
+    boundary:
+      - {on: [x_min, x_max, y_min], velocity: [0, 0]}
+      - {on: y_max, traction: [0, -p0]}
+  block:
+    type: porous_solid
+    mesh: block
+    material: {type: neo_hookean, young: 50, poisson: 0}
+    viscosity: 1
+    porosity: {initial: 0.5, bulk: 100, opening: 1}
+    permeability: ["${permeability}"]
+    boundary:
+      - {on: x_min, displacement: [0, null], velocity: [0, null]}
+      - {on: y_min, displacement: [null, 0], velocity: [null, 0]}
+      - {on: y_max, traction: [0, -q]}
+interfaces:
+  face: {type: embedded, field: water, body: block, boundaries: [x_max, y_max]}
+coupling:
+  - {type: fpi, on: face}
+time: {end: "${end}", step: {initial: "${step}"}}
+solver: {newton: {tolerance: "${tolerance}"}, linear: {type: direct}}
+output:
+  fields: false
+  probes:
+    side: {field: block, at: [0.25, 1.85], quantity: displacement}
+    base: {field: block, at: [0.1, 0.3], quantity: pressure}
+    pores: {field: block, at: [0.1, 1.6], quantity: velocity, component: magnitude}
+    water: {field: water, at: [0.7, 0.7], quantity: pressure}
+    flow: {field: water, at: [0.5, 1.2], quantity: velocity, component: magnitude}
+    foot: {field: block, on: y_min, quantity: reaction, component: y}
+    push: {interface: face, quantity: force, component: y}
+)";
+constexpr double rest_x = 0.0008518097369087929, rest_y = -0.018948380425042544;
+
+}  // namespace
+
+TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and what the fluid exerts",
+          "[sanitized]") {
+  SECTION("as its homogeneous state tells") {
+    const auto check_rest = [](const Run& run, double bound) {
+      INFO(run.done.output);
+      REQUIRE(run.done.code == 0);
+      const auto last = [&](const std::string& name) { return run.series(name).back(); };
+      CHECK(std::abs(last("side.x") - 0.25 * rest_x) < bound);
+      CHECK(std::abs(last("side.y") - 1.85 * rest_y) < bound);
+      CHECK(std::abs(last("base") - 3) < bound);
+      CHECK(std::abs(last("water") - 3) < bound);
+      CHECK(std::abs(last("pores")) < bound);
+      CHECK(std::abs(last("flow")) < bound);
+      CHECK(std::abs(last("foot") - (3 * (1 + rest_x) + 1) * 0.25) < bound);
+    };
+    for (const std::string momentum : {"total", "printed"}) {
+      const std::string options = "--set fields.block.momentum=" + momentum;
+      check_rest(Run(block_scene,
+                     options + " --set fields.water.initial.pressure=3 --set fields.block.initial.pressure=3 "
+                               "--set 'fields.block.initial.displacement=[\"0.0008518097369087929*x\", "
+                               "\"-0.018948380425042544*y\"]'"),
+                 1e-12);
+      // From no load at all, in steps that are long beside what pores take to drain.
+      check_rest(Run(block_scene, options + " --set parameters.end=6e4 --set parameters.step=2e3"), 1e-9);
+    }
+  }
+  SECTION("at every permeability, from the first step on") {
+    for (const std::string permeability : {"1e-2", "1e-4", "1e-6", "1e-8", "1e-10"}) {
+      INFO(permeability);
+      const Run run(block_scene,
+                    "--set parameters.end=0.03 --set parameters.step=0.01 --set parameters.tolerance=1e-11 "
+                    "--set parameters.permeability=" +
+                        permeability);
+      INFO(run.done.output);
+      REQUIRE(run.done.code == 0);
+      const std::vector<double> foot = run.series("foot"), push = run.series("push");
+      REQUIRE(foot.size() == 4);
+      for (std::size_t k = 1; k < foot.size(); ++k) CHECK(std::abs(foot[k] + push[k] - 0.25) < 1e-8 * 0.25);
+    }
+  }
+}
