@@ -48,7 +48,7 @@ CHAINS = {
     "output": "mesh:vtu_test run:output_test run:results_test run:results_folder_test run:cut_output_test run:flush_test",
     "physics": "solver kit:solid",
     "plugin": "input conformance",
-    "poroelasticity": "solver:pore_kernels_test solver:coupling_kernels_test kit:poroelasticity run:porous_test run:porous_force_test run:porous_block_test run:porous_orders_test scene:poro/waves scene:poro/terzaghi",
+    "poroelasticity": "solver:pore_kernels_test solver:coupling_kernels_test kit:poroelasticity run:porous_test run:porous_column_test run:porous_block_test run:porous_orders_test scene:poro/waves scene:poro/terzaghi",
     "record": "run:statistics_test run:results_test run:balances_test solver:error_norms_test run",
     "run": "run:statistics_test run:stepper_test run:balances_test run:results_test run:restart_test run:time_scheme_test "
            "solver:error_norms_test fsi:replay_test run",

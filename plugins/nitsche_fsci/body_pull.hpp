@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "solid_sided.hpp"
@@ -11,6 +13,20 @@ namespace seam::fsci {
 template <int dim, class T, class G>
 T normal_stress(const Law& law, const Mat<dim, dim, T>& gradient, const Vec<dim, G>& normal) {
   return dot(normal, body_traction<dim, T>(law, gradient, normal));
+}
+
+/// The same of the mixture in a porous body. @param law "mixture"
+template <int dim, class T, class G>
+T mixture_stress(const Law& law, const Mat<dim, dim, T>& gradient, const T& pressure,
+                 const Vec<dim, G>& normal) {
+  constexpr int n = dim * dim;
+  std::array<T, n + 1> at;
+  std::copy(gradient.c.begin(), gradient.c.end(), at.begin());
+  at[n] = pressure;
+  Mat<dim, dim, T> stress, f = gradient;
+  stress.c = evaluate<n, n + 1, T>(law, dim, at);
+  for (int i = 0; i < dim; ++i) f(i, i) += 1.0;
+  return dot(normal, stress * (transpose(f) * normal)) / determinant(f);
 }
 
 /// Whose stress stands for that between two bodies.
@@ -37,14 +53,18 @@ struct BodyPull {
     const double omega = weight(x);
     return penalty * (omega * x.constant[0] + (1 - omega) * x.constant[1]);
   }
+  /// @param other_pressure in the pores of the other body, where it has some
   template <int dim, class T, class G>
   [[nodiscard]] T operator()(const Point<dim, G>& x, const Vec<dim, G>& normal,
-                             const Mat<dim, dim, T>& own_gradient,
-                             const Mat<dim, dim, T>& other_gradient) const {
+                             const Mat<dim, dim, T>& own_gradient, const Mat<dim, dim, T>& other_gradient,
+                             const T* other_pressure = nullptr) const {
     const double omega = weight(x);
     T pull = T(stiffness(x) * x.gap);
     if (omega > 0 && own) pull += omega * normal_stress<dim, T>(*own, own_gradient, normal);
-    if (omega < 1 && other) pull += (1 - omega) * normal_stress<dim, T>(*other, other_gradient, normal);
+    if (omega < 1 && other)
+      pull += (1 - omega) * (other_pressure
+                                 ? mixture_stress<dim, T>(*other, other_gradient, *other_pressure, normal)
+                                 : normal_stress<dim, T>(*other, other_gradient, normal));
     return pull;
   }
 };

@@ -13,11 +13,16 @@ namespace {
 using SideTerm = Coupling::SideTerm;
 
 const std::vector<Operand> free_operands{{0, "velocity"}, {0, "pressure"}, {1, "displacement"}};
-const std::vector<Operand> near_operands{
-    {0, "velocity"}, {0, "pressure"}, {1, "displacement"}, {2, "displacement"}};
-const std::vector<Operand> closed_operands{
-    {0, "velocity"}, {0, "pressure"}, {1, "displacement"}, {2, "displacement"}, {3, "displacement"}};
 
+/// What the terms of a part where there is another body stand for. @param edge the side of operand 4
+std::vector<Operand> operands_of(const CouplingSides& sides, bool meets_fluid, int edge) {
+  std::vector<Operand> result = free_operands;
+  if (!meets_fluid) result[0] = result[1] = {1, "displacement"};
+  result.push_back({2, "displacement"});
+  result.push_back({edge, "displacement"});
+  if (is_porous(sides, 2)) result.push_back({2, "pressure"});
+  return result;
+}
 /// A deforming body in a fluid that may touch another one, or itself.
 class ContactInFluid final : public Coupling {
  public:
@@ -62,11 +67,12 @@ class ContactInFluid final : public Coupling {
   }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    const std::vector<SideConstant> scale = scales(sides);
-    return {{make_term(fluid_sided(sides), 1), free_operands, {}, "free"},
-            {make_term(FluidSidedNear{fluid_sided(sides)}, 1), free_operands, {}, "near"},
-            {make_term(near_contact(sides), 1), near_operands, scale, "near"},
-            {make_term(closed_contact(sides), 1), closed_operands, scale, "closed"}};
+    std::vector<SideTerm> result{
+        {make_term(fluid_sided(sides), 1), free_operands, {}, "free"},
+        {make_term(FluidSidedNear{fluid_sided(sides)}, 1), free_operands, {}, "near"}};
+    for (SideTerm& term : is_porous(sides, 2) ? contact<true>(sides) : contact<false>(sides))
+      result.push_back(std::move(term));
+    return result;
   }
 
   void check_beside(const std::vector<Neighbour>& all, std::size_t self) const override {
@@ -74,27 +80,50 @@ class ContactInFluid final : public Coupling {
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
-    using Near = TouchState<NearContact>;
-    using Closed = TouchState<ClosedContact>;
+    return is_porous(sides, 2) ? measures_of<true>(sides) : measures_of<false>(sides);
+  }
+
+ private:
+  /// @tparam porous whether the other body has pores
+  template <bool porous>
+  [[nodiscard]] std::vector<SideTerm> contact(const CouplingSides& sides) const {
     const std::vector<SideConstant> scale = scales(sides);
-    const NearContact near = near_contact(sides);
-    const ClosedContact closed = closed_contact(sides);
+    return {
+        {make_term(near_contact<porous>(sides), 1), operands_of(sides, true, 1), scale, "near"},
+        {make_term(closed_contact<porous>(sides), 1), operands_of(sides, true, 3), scale, "closed"},
+        {make_term(ShutContact<porous>{{bodies(sides)}}, 1), operands_of(sides, false, 1), scale, "shut"}};
+  }
+  template <bool porous>
+  [[nodiscard]] std::vector<Measure> measures_of(const CouplingSides& sides) const {
+    using Near = TouchState<NearContact<porous>>;
+    using Closed = TouchState<ClosedContact<porous>>;
+    using Shut = TouchState<ShutContact<porous>>;
+    using Number = typename Near::Number;
+    const std::vector<SideConstant> scale = scales(sides);
+    const std::vector<Operand> near_operands = operands_of(sides, true, 1),
+                               closed_operands = operands_of(sides, true, 3),
+                               shut_operands = operands_of(sides, false, 1);
+    const NearContact<porous> near = near_contact<porous>(sides);
+    const ClosedContact<porous> closed = closed_contact<porous>(sides);
+    const ShutContact<porous> shut{{bodies(sides)}};
     const FluidSided flow = fluid_sided(sides);
     const auto on_wet = [](const std::shared_ptr<const Term>& term,
                            const std::vector<Operand>& operands = free_operands) {
       return std::vector<SideTerm>{{term, operands, {}, "free"}, {term, operands, {}, "near"}};
     };
-    const auto touch = [&](Near::Number number, int component = 0) {
+    const auto touch = [&](Number number, int component = 0) {
       return std::vector<SideTerm>{
           {make_quantity(Near{near, number, component}), near_operands, scale, "near"},
-          {make_quantity(Closed{closed, Closed::Number(number), component}), closed_operands, scale,
-           "closed"}};
+          {make_quantity(Closed{closed, typename Closed::Number(number), component}), closed_operands, scale,
+           "closed"},
+          {make_quantity(Shut{shut, typename Shut::Number(number), component}), shut_operands, scale,
+           "shut"}};
     };
     std::vector<Measure> result{
         {"mismatch", on_wet(make_quantity(VelocityMismatch{}))},
-        {"gap", touch(Near::Number::gap), MeasureOf::least},
-        {"contact_area", touch(Near::Number::touches), MeasureOf::integral},
-        {"contact_pressure", touch(Near::Number::pressure), MeasureOf::greatest},
+        {"gap", touch(Number::gap), MeasureOf::least},
+        {"contact_area", touch(Number::touches), MeasureOf::integral},
+        {"contact_pressure", touch(Number::pressure), MeasureOf::greatest},
         {"fluid_outflow", on_wet(make_quantity(Outflow<Value<Vector<0>>>{}), {{0, "velocity"}}),
          MeasureOf::integral},
         {"body_outflow", on_wet(make_quantity(Outflow<Rate<Vector<0>>>{}), {{1, "displacement"}}),
@@ -102,16 +131,17 @@ class ContactInFluid final : public Coupling {
     constexpr const char* axis[] = {".x", ".y", ".z"};
     for (int c = 0; c < parameters_.dimension(); ++c) {
       result.push_back(
-          {std::string("contact_force") + axis[c], touch(Near::Number::traction, c), MeasureOf::integral});
+          {std::string("contact_force") + axis[c], touch(Number::traction, c), MeasureOf::integral});
       std::vector<SideTerm> all = on_wet(make_quantity(TractionOf<FluidSided>{flow, c}));
-      all.push_back({make_quantity(TractionOf<NearContact>{near, c}), near_operands, scale, "near"});
-      all.push_back({make_quantity(TractionOf<ClosedContact>{closed, c}), closed_operands, scale, "closed"});
+      all.push_back({make_quantity(TractionOf<NearContact<porous>>{near, c}), near_operands, scale, "near"});
+      all.push_back(
+          {make_quantity(TractionOf<ClosedContact<porous>>{closed, c}), closed_operands, scale, "closed"});
+      all.push_back({make_quantity(TractionOf<ShutContact<porous>>{shut, c}), shut_operands, scale, "shut"});
       result.push_back({std::string("force") + axis[c], std::move(all), MeasureOf::integral});
     }
     return result;
   }
 
- private:
   [[nodiscard]] FluidSided fluid_sided(const CouplingSides& sides) const {
     for (const Operand& operand : free_operands)
       static_cast<void>(sides.fields.at(operand.side)->place(operand.unknown));
@@ -128,11 +158,20 @@ class ContactInFluid final : public Coupling {
   [[nodiscard]] BodyPull bodies(const CouplingSides& sides) const {
     return body_pull(parameters_, sides, 1, 2, parameters_.object("penalty").number("contact"));
   }
-  [[nodiscard]] NearContact near_contact(const CouplingSides& sides) const {
-    return {{fluid_pull(sides), bodies(sides)}};
+  template <bool porous>
+  [[nodiscard]] NearContact<porous> near_contact(const CouplingSides& sides) const {
+    NearContact<porous> result;
+    result.bodies = bodies(sides);
+    result.fluid = fluid_pull(sides);
+    return result;
   }
-  [[nodiscard]] ClosedContact closed_contact(const CouplingSides& sides) const {
-    return {{fluid_pull(sides), bodies(sides)}, parameters_.number("extension_reach")};
+  template <bool porous>
+  [[nodiscard]] ClosedContact<porous> closed_contact(const CouplingSides& sides) const {
+    ClosedContact<porous> result;
+    result.bodies = bodies(sides);
+    result.fluid = fluid_pull(sides);
+    result.reach = parameters_.number("extension_reach");
+    return result;
   }
   [[nodiscard]] std::vector<SideConstant> scales(const CouplingSides& sides) const {
     return {{1, scale_of(parameters_, sides, 1)}, {2, scale_of(parameters_, sides, 2)}};

@@ -18,6 +18,7 @@ namespace seam::fsci {
 
 using OppositeDisplacement = Vector<3>;
 using EdgeDisplacement = Vector<4>;
+using OppositePressure = Scalar<5>;
 
 /// F.
 struct FluidPull {
@@ -41,49 +42,70 @@ struct FluidSidedNear : FluidSided {
   static constexpr int movers = 2;
 };
 
+/// S where the other body has an opposite point. @tparam porous whether it has pores
+template <bool porous, class... More>
+struct BodyPulls {
+  using Reads = std::conditional_t<
+      porous, Slots<More..., Gradient<Displacement>, Gradient<OppositeDisplacement>, Value<OppositePressure>>,
+      Slots<More..., Gradient<Displacement>, Gradient<OppositeDisplacement>>>;
+  BodyPull bodies;
+
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    const Mat<dim, dim, T> own = s.gradient(Displacement{}), other = s.gradient(OppositeDisplacement{});
+    if constexpr (porous) {
+      const T pressure = s.value(OppositePressure{});
+      return bodies.operator()<dim, T, G>(x, -x.normal, own, other, &pressure);
+    } else {
+      return bodies.operator()<dim, T, G>(x, -x.normal, own, other);
+    }
+  }
+};
+
 /// F and S at a point that has an opposite one. @tparam Body the displacement whose rate v is compared with
 /// @tparam More what else is read
-template <class Body, class... More>
-struct Pulls {
-  using Reads = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Body>,
-                      Gradient<Displacement>, Gradient<OppositeDisplacement>, More...>;
+template <bool porous, class Body, class... More>
+struct Pulls : BodyPulls<porous, Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Body>, More...> {
+  using Reads = typename BodyPulls<porous, Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Rate<Body>,
+                                   More...>::Reads;
   using Tests = Slots<Value<Displacement>>;
   FluidPull fluid;
-  BodyPull bodies;
 
   template <int dim, class T, class G>
   [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
     return fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}), s.value(Pressure{}),
                                        s.rate(Body{}));
   }
-  template <int dim, class T, class G>
-  [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
-    return bodies.operator()<dim, T, G>(x, -x.normal, s.gradient(Displacement{}),
-                                        s.gradient(OppositeDisplacement{}));
-  }
 };
 
 /// min(F, S) - F for the body at wet points, where FluidSided has given it F.
-struct NearContact : Pulls<Displacement> {
+template <bool porous>
+struct NearContact : Pulls<porous, Displacement> {
+  using Reads = typename Pulls<porous, Displacement>::Reads;
+  using Tests = typename Pulls<porous, Displacement>::Tests;
   static constexpr int movers = 2;
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const T f = of_fluid<dim, T, G>(x, s), contact = of_bodies<dim, T, G>(x, s);
+    const T f = this->template of_fluid<dim, T, G>(x, s), contact = this->template of_bodies<dim, T, G>(x, s);
     if (plain(contact) < plain(f)) r.value(Displacement{}) += (contact - f) * x.normal;
   }
 };
 
 /// min(F, S) for the body at closed points. F fades to nothing, as in dry contact, within `reach` of the wet
 /// point that it is taken from: thesis, Remark 6.12.
-struct ClosedContact : Pulls<EdgeDisplacement, Value<Displacement>> {
+template <bool porous>
+struct ClosedContact : Pulls<porous, EdgeDisplacement, Value<Displacement>> {
+  using Base = Pulls<porous, EdgeDisplacement, Value<Displacement>>;
+  using Reads = typename Base::Reads;
+  using Tests = typename Base::Tests;
   static constexpr int movers = 4;
   double reach;  ///< m, may be infinite
 
   template <int dim, class T, class G>
   [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
     using std::sqrt;
-    const T edge = Pulls::of_fluid<dim, T, G>(x, s);
+    const T edge = Base::template of_fluid<dim, T, G>(x, s);
     if (std::isinf(reach)) return edge;
     Vec<dim, T> way = s.value(Displacement{});
     way += x.partner_position - x.position;
@@ -94,12 +116,29 @@ struct ClosedContact : Pulls<EdgeDisplacement, Value<Displacement>> {
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const T f = of_fluid<dim, T, G>(x, s), contact = of_bodies<dim, T, G>(x, s);
+    const T f = of_fluid<dim, T, G>(x, s), contact = this->template of_bodies<dim, T, G>(x, s);
     r.value(Displacement{}) += (plain(contact) < plain(f) ? contact : f) * x.normal;
   }
 };
 
-/// Whether the bodies touch, at a near or a closed point, and how hard.
+/// min(0, S) for the body where nothing of its surface is in the fluid: dry contact.
+template <bool porous>
+struct ShutContact : BodyPulls<porous> {
+  using Reads = typename BodyPulls<porous>::Reads;
+  using Tests = Slots<Value<Displacement>>;
+  static constexpr int movers = 2;
+
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_fluid(const Point<dim, G>&, const Trial<dim, T, Reads>&) const {
+    return T(0.0);
+  }
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    r.value(Displacement{}) += pressing(this->template of_bodies<dim, T, G>(x, s)) * x.normal;
+  }
+};
+
+/// Whether the bodies touch, at a near, a closed or a shut point, and how hard.
 template <class Kernel>
 struct TouchState {
   using Reads = typename Kernel::Reads;

@@ -49,10 +49,10 @@ std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side) {
   static_cast<void>(sides.fields.at(side)->place("displacement"));
   std::shared_ptr<const Law> law = sides.law(side, "stress");
   if (!law)
-    throw Error(
-        fmt::format("the coupling needs bodies that make their stress known; field '{}' does not (a solid "
-                    "does, unless its formulation is mixed)",
-                    sides.fields[side]->name()));
+    throw Error(fmt::format(
+        "the coupling needs bodies that make their stress known; field '{}' does not (a solid "
+        "does, unless its formulation is mixed; contact of a porous one is `porous_contact_in_fluid`)",
+        sides.fields[side]->name()));
   return law;
 }
 
@@ -76,12 +76,15 @@ bool is_rigid(const CouplingSides& sides, int side) {
 
 }  // namespace
 
+bool is_porous(const CouplingSides& sides, int side) { return sides.law(side, "mixture") != nullptr; }
+
 std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,
                                              int side) {
   if (is_rigid(sides, side))
     return std::make_shared<GivenStiffness>(
         parameters.has("surface_stiffness") ? parameters.number("surface_stiffness") : 0.0);
-  return std::make_shared<TraceEigenvalue>(law_of(sides, side), scaling_of(parameters));
+  return std::make_shared<TraceEigenvalue>(
+      is_porous(sides, side) ? sides.law(side, "skeleton") : law_of(sides, side), scaling_of(parameters));
 }
 
 void declare_stress(Schema& schema) {
@@ -181,8 +184,19 @@ BodyPull body_pull(const Parameters& parameters, const CouplingSides& sides, int
     throw Error(parameters.where("surface_stiffness"),
                 "`surface_stiffness` is for two rigid bodies; here one deforms, and its stiffness counts");
   if (other_rigid) return {law_of(sides, own), nullptr, penalty, Whose::own};
-  if (own_rigid) return {nullptr, law_of(sides, other), penalty, Whose::other};
+  if (own_rigid)
+    return {nullptr, is_porous(sides, other) ? sides.law(other, "mixture") : law_of(sides, other), penalty,
+            Whose::other};
   const std::string& name = parameters.text("stress");
+  if (is_porous(sides, other)) {
+    if (name != "other")
+      throw Error(
+          parameters.where("stress"),
+          fmt::format("the stress between a body and the porous one '{}' is that of the porous one: write "
+                      "`stress: other`",
+                      sides.fields[other]->name()));
+    return {nullptr, sides.law(other, "mixture"), penalty, Whose::other};
+  }
   const Whose whose = name == "both" ? Whose::both : (name == "own" ? Whose::own : Whose::other);
   return {law_of(sides, own), law_of(sides, other), penalty, whose};
 }

@@ -25,6 +25,9 @@ Jump jump_of(const Parameters& jumps, const std::string& key, bool tensor);
 /// @throws Error when the body has none, naming the field
 std::shared_ptr<const Law> law_of(const CouplingSides& sides, int side);
 
+/// Whether the body on a side makes known the stress of a mixture.
+bool is_porous(const CouplingSides& sides, int side);
+
 /// lambda_e of the cells on a side, by the key `scaling`; of a rigid body the key `surface_stiffness`.
 std::shared_ptr<const CellConstant> scale_of(const Parameters& parameters, const CouplingSides& sides,
                                              int side);

@@ -6,6 +6,7 @@
 #include "contact_in_fluid.hpp"
 #include "fpi.hpp"
 #include "fsi.hpp"
+#include "porous_contact.hpp"
 
 SEAM_PLUGIN(registry) {
   seam::fsci::declare_fsi(registry);
@@ -13,4 +14,5 @@ SEAM_PLUGIN(registry) {
   seam::fsci::declare_bonded(registry);
   seam::fsci::declare_contact(registry);
   seam::fsci::declare_contact_in_fluid(registry);
+  seam::fsci::declare_porous_contact(registry);
 }

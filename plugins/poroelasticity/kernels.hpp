@@ -5,7 +5,6 @@
 
 #include "laws.hpp"
 #include "seam/physics/body_terms.hpp"
-#include "seam/physics/hyperelastic.hpp"
 #include "seam/scene/expression.hpp"
 #include "seam/term/kernel_term.hpp"
 
@@ -26,71 +25,6 @@ namespace seam::poro {
 using u = Vector<0>;
 using v = Vector<1>;
 using p = Scalar<2>;
-
-/// How hardly fluid moves through the undeformed pores in a step, Pa s/m^2: resistance and inertia, thesis
-/// (2.124).
-struct PoreScale {
-  double resistance;  ///< mu phi_0/K_0, Pa s/m^2
-  double density;     ///< of the fluid, kg/m^3
-  template <int dim>
-  [[nodiscard]] double operator()(const Point<dim>& x) const {
-    constexpr double c_t = 1.0 / 12;
-    return resistance + (x.step > 0 ? c_t * density / (x.theta * x.step) : 0.0);
-  }
-};
-
-/// What the fluid in the pores is, and what holds it back.
-struct PoreFlow {
-  double density;    ///< rho_F, kg/m^3
-  double viscosity;  ///< mu, Pa s
-  Porosity porosity;
-  bool kozeny_carman;
-  std::array<double, 9> inverse_permeability;  ///< [3][3], 1/m^2, of which dimension x dimension count
-
-  template <int dim>
-  [[nodiscard]] Resistance<dim> resistance() const {
-    Resistance<dim> result{{}, kozeny_carman, porosity.initial};
-    for (int i = 0; i < dim; ++i)
-      for (int j = 0; j < dim; ++j) result.inverse_permeability(i, j) = inverse_permeability[i * 3 + j];
-    return result;
-  }
-  [[nodiscard]] PoreScale scale(int dimension) const {
-    double trace = 0;
-    for (int d = 0; d < dimension; ++d) trace += inverse_permeability[d * 3 + d];
-    return {viscosity * porosity.initial * trace / dimension, density};
-  }
-  /// mu phi C K^-1 C^T w, Pa/m of reference volume: what the skeleton takes from the fluid, over phi.
-  template <int dim, class T>
-  [[nodiscard]] Vec<dim, T> drag(const Deformation<dim, T>& d, const T& fluid_volume,
-                                 const Vec<dim, T>& w) const {
-    const T phi = fluid_volume / d.invariant[2];
-    const Vec<dim, T> flow = transpose(d.cofactor) * w;
-    return (viscosity * phi) * (d.cofactor * resistance<dim>()(fluid_volume, flow));
-  }
-};
-
-/// What couplings may know of the pores: the law "pores".
-struct PoresFormula {
-  PoreFlow flow;
-  std::array<double, 9> permeability;  ///< [3][3], m^2; in the plane its out-of-plane entry counts, too
-  static constexpr int arguments(int dim) { return dim * dim + 1; }
-  static constexpr int values(int) { return 2; }
-
-  template <int dim, class T>
-  [[nodiscard]] std::array<T, 2> at(const std::array<T, dim * dim + 1>& x) const {
-    Mat<dim, dim, T> gradient;
-    std::copy_n(x.begin(), dim * dim, gradient.c.begin());
-    const Deformation<dim, T> d(gradient);
-    const T& j = d.invariant[2];
-    const T m = flow.porosity.fluid_volume(j, x[dim * dim]);
-    // tr(F K F^T)
-    T trace = T(dim == 2 ? permeability[8] : 0.0);
-    for (int i = 0; i < dim; ++i)
-      for (int a = 0; a < dim; ++a)
-        for (int b = 0; b < dim; ++b) trace += permeability[a * 3 + b] * (d.f(i, a) * d.f(i, b));
-    return {T(m / j), T(flow.resistance<dim>().opened(m) * trace / (3 * j))};
-  }
-};
 
 /// Balance of mass without its boundary term.
 struct Storage {
@@ -176,13 +110,10 @@ struct MixtureStress {
   using pressure = Scalar<1>;
   using Reads = Slots<Gradient<u>, Value<pressure>>;
   using Tests = Slots<Gradient<u>>;
-  PotentialPointer skeleton;
-  Porosity porosity;
+  MixtureFormula formula;
   template <int dim, class T>
   void operator()(const Point<dim>&, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const Deformation<dim, T> d(s.gradient(u{}));
-    const T m = porosity.fluid_volume(d.invariant[2], s.value(pressure{}));
-    r.gradient(u{}) += d.stress(*skeleton) - porosity.back_pressure(m, s.value(pressure{})) * d.cofactor;
+    r.gradient(u{}) += formula.stress<dim, T>(Deformation<dim, T>(s.gradient(u{})), s.value(pressure{}));
   }
 };
 

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "quantities.hpp"
-#include "seam/physics/law.hpp"
 #include "seam/physics/regions.hpp"
+#include "seam/physics/stress_law.hpp"
 
 namespace seam::poro {
 namespace {
@@ -94,6 +94,8 @@ void PorousSolid::build(FieldSetup& setup) const {
     setup.within(static_cast<int>(k), [&, &region = regions_[k]] {
       setup.publish("pores",
                     std::make_shared<LawOf<PoresFormula>>(PoresFormula{region.flow, region.permeability.c}));
+      setup.publish("mixture", std::make_shared<LawOf<MixtureFormula>>(mixture(region)));
+      setup.publish("skeleton", std::make_shared<LawStress<SkeletonStress>>(SkeletonStress{region.skeleton}));
       add_balances(setup, region);
       if (order_ == 1) add_stabilisation(setup, region);
       add_outputs(setup, region);
@@ -110,12 +112,12 @@ void PorousSolid::add_balances(FieldSetup& setup, const Region& region) const {
   const PoreFlow& flow = region.flow;
   setup.add_cell_term(make_term(Storage{flow.porosity, conservative}), all_unknowns);
   setup.add_cell_term(make_term(PoreMomentum{flow}), all_unknowns);
-  setup.add_cell_term(make_term(MixtureStress{region.skeleton, flow.porosity}), {"displacement", "pressure"});
+  setup.add_cell_term(make_term(MixtureStress{mixture(region)}), {"displacement", "pressure"});
   if (is_printed()) setup.add_cell_term(make_term(PrintedExchange{flow}), all_unknowns);
   if (flow.density > 0)
     setup.add_cell_term(make_term(PoreInertia{flow.density, share(region)}), all_unknowns);
   if (region.density > 0) setup.add_cell_term(make_term(BodyInertia{region.density}), {"displacement"});
-  setup.add_surface_term(make_term(Seepage{flow.porosity}, 4), all_unknowns);
+  setup.add_surface_term(make_term(Seepage{flow.porosity}, 4), all_unknowns, "seepage");
 }
 
 void PorousSolid::add_stabilisation(FieldSetup& setup, const Region& region) const {

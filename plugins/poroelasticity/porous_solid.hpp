@@ -35,6 +35,7 @@ class PorousSolid final : public Physics {
   void add_boundary(FieldSetup& setup, const Parameters& condition, const std::string& name) const;
   static const std::vector<InitialKey>& initial_keys();
   [[nodiscard]] bool is_printed() const { return parameters_.text("momentum") == "printed"; }
+  static MixtureFormula mixture(const Region& region) { return {region.skeleton, region.flow.porosity}; }
   [[nodiscard]] MixtureShare share(const Region& region) const {
     return {region.flow.porosity, is_printed()};
   }

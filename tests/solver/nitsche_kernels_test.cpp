@@ -253,11 +253,15 @@ TEST_CASE("in a fluid the surface carries the lesser of what fluid and bodies ex
     x.gap = gap;
     const double s = t[0] * out_of_body[0] + t[1] * out_of_body[1] + 10 * 5 * gap;
     REQUIRE((s < f) == (gap < 0));
-    const auto near = residual(NearContact{{fluid, bodies}}, x, in);
+    NearContact<false> near_contact;
+    ClosedContact<false> closed_contact;
+    near_contact.fluid = closed_contact.fluid = fluid;
+    near_contact.bodies = closed_contact.bodies = bodies;
+    closed_contact.reach = std::numeric_limits<double>::infinity();
+    const auto near = residual(near_contact, x, in);
     std::vector<double> closed_in = in;
-    closed_in.insert(closed_in.end(), {0.1, 0.2});
-    const auto closed =
-        residual(ClosedContact{{fluid, bodies}, std::numeric_limits<double>::infinity()}, x, closed_in);
+    closed_in.insert(closed_in.begin() + 9, {0.1, 0.2});  // the body's displacement
+    const auto closed = residual(closed_contact, x, closed_in);
     for (int i = 0; i < 2; ++i) {
       CHECK(near[i] == Approx((std::min(s, f) - f) * n[i]).epsilon(0).margin(1e-13));
       CHECK(closed[i] == Approx(std::min(s, f) * n[i]).epsilon(1e-12));

@@ -210,7 +210,7 @@ TEST_CASE(
   for (int i = 0; i < 2; ++i) CHECK(exchange[i] == Approx(-phi * (pressed[i] + held[i])).epsilon(1e-8));
 
   const auto skeleton = std::make_shared<LawPotential<3, NoEnergy>>(NoEnergy{});
-  const auto mixture = residual(MixtureStress{skeleton, porosity}, {stretch, {p}});
+  const auto mixture = residual(MixtureStress{{skeleton, porosity}}, {stretch, {p}});
   const double back = p - opening / initial + opening / m;
   for (int k = 0; k < 4; ++k) CHECK(mixture[k] == Approx(-back * d.cofactor[k / 2][k % 2]).epsilon(1e-8));
 

@@ -68,7 +68,7 @@ class Terms final : public FieldSetup {
   void add_boundary_term(const std::string&, std::shared_ptr<const Term>, std::vector<std::string>) override {
     throw unexpected();
   }
-  void add_surface_term(std::shared_ptr<const Term>, std::vector<std::string>) override {
+  void add_surface_term(std::shared_ptr<const Term>, std::vector<std::string>, const std::string&) override {
     throw unexpected();
   }
   void add_interior_face_term(std::shared_ptr<const Term>, std::vector<Operand>) override {

@@ -159,7 +159,7 @@ void compare_porous_with_solid(int n) {
                             {{make_term(poro::Storage{porosity, true}), all},
                              {make_term(poro::PoreMomentum{flow}), all},
                              {make_term(poro::PoreInertia{1, {porosity, false}}), all},
-                             {make_term(poro::MixtureStress{energy, porosity}), up},
+                             {make_term(poro::MixtureStress{{energy, porosity}}), up},
                              {make_term(BodyInertia{1}), u}},
                             0.1);
   // 4 nodes with 2 and with 5 unknowns.

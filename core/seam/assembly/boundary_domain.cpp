@@ -13,6 +13,16 @@ BoundaryDomain::BoundaryDomain(Field& field, const std::string& boundary, int de
   BoundaryDomain::update(field);
 }
 
+void BoundaryDomain::leave_out(const std::vector<std::string>& boundaries) {
+  const Mesh& mesh = field_->mesh();
+  const auto add = [&](const std::vector<CellFace>& faces) {
+    for (const CellFace& face : faces) left_out_.emplace(face.cell, face.face);
+  };
+  for (const std::string& boundary : boundaries) add(mesh.boundary(boundary));
+  if (boundaries.empty()) add(mesh.outer_faces());
+  update(*field_);
+}
+
 void BoundaryDomain::update(const Field& field) {
   if (&field != field_) return;
   whole_.clear();
@@ -21,6 +31,7 @@ void BoundaryDomain::update(const Field& field) {
   const Mesh& mesh = field.mesh();
   for (const CellFace& face : boundary_.empty() ? mesh.outer_faces() : mesh.boundary(boundary_)) {
     if (face.cell >= mesh.owned_cells() || !field.active_cells()[face.cell]) continue;
+    if (left_out_.contains({face.cell, face.face})) continue;
     if (!field.is_cut(face.cell)) {
       whole_.push_back(face);
       continue;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -76,6 +77,8 @@ class BoundaryDomain final : public IntegrationDomain {
  public:
   /// @param boundary its name, "" for the whole outer surface of the mesh
   BoundaryDomain(Field& field, const std::string& boundary, int degree);
+  /// Takes faces out for good. @param boundaries their names; empty for all faces
+  void leave_out(const std::vector<std::string>& boundaries);
 
   [[nodiscard]] int size() const override { return static_cast<int>(whole_.size() + cut_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override { return {field_}; }
@@ -88,6 +91,7 @@ class BoundaryDomain final : public IntegrationDomain {
   Field* field_;
   std::string boundary_;
   int degree_;
+  std::set<std::pair<int, int>> left_out_;  ///< cell and face
   std::vector<CellFace> whole_;
   std::vector<CutPoints> cut_;  ///< numbered after the whole ones
   FaceTables tables_;

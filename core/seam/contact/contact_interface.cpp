@@ -121,6 +121,7 @@ std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup
   const Surfaces both = surfaces(parameters_, "body", setup, 1, backing_of(parameters_));
   FieldCut& cut = setup.cut(0);
   const int number = cut.add_body([own = both.own](double) { return own->now(); });
+  if (setup.sides[1]->law("pores", 0)) cut.keep_at(number);
   const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,
                                                          both.range, facet_degree(setup));
   const auto part = [&](EmbeddedSurface::Zone which) {
@@ -128,7 +129,9 @@ std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup
   };
   return {{"free", part(EmbeddedSurface::free)},
           {"near", part(EmbeddedSurface::near)},
-          {"closed", part(EmbeddedSurface::closed), false}};
+          {"closed", part(EmbeddedSurface::closed), false},
+          {"shut", part(EmbeddedSurface::shut), false},
+          {"covered", part(EmbeddedSurface::covered), false}};
 }
 
 void register_contact(Registry& registry) {

@@ -43,15 +43,19 @@ class ObstacleInterface final : public Interface {
 };
 
 /// A deforming body's surface in a field out of whose mesh it is cut, and what lies opposite to it there.
-/// Side 0 is that field, side 1 the body, side 2 the other one. It has three parts, see EmbeddedSurface:
-/// `free` with sides 0 and 1, `near` with all of them and a gap, and `closed`, where side 0 is the nearest
-/// wet point's trace and sides 3 and 4 are the two bodies there.
+/// Side 0 is that field, side 1 the body, side 2 the other one. It has five parts, see EmbeddedSurface:
+/// `free` with sides 0 and 1, `near` with all of them and a gap, `closed`, where side 0 is the nearest wet
+/// point's trace and sides 3 and 4 are the two bodies there, `shut` with sides 1 and 2, and `covered` with
+/// side 1 alone. In the last two side 0 is the body, too.
 class EmbeddedContactInterface final : public Interface {
  public:
   explicit EmbeddedContactInterface(const Parameters& parameters) : parameters_(parameters) {}
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override {
     return {parameters_.text("field"), parameters_.text("body"), parameters_.text("to")};
+  }
+  [[nodiscard]] std::vector<std::string> boundaries(int side) const override {
+    return side == 1 ? parameters_.names("boundaries") : std::vector<std::string>{};
   }
   [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 

@@ -18,9 +18,10 @@ namespace seam {
 
 /// All of a body's surface in a field that it is cut out of, where it may come to touch another surface, or
 /// itself: the consistent pair of domain and interface of thesis 6.2.1.2. Every point of the surface is
-/// in exactly one of three zones. What the field's mesh has of the surface is wet; there, a point may have an
+/// in exactly one of five zones. What the field's mesh has of the surface is wet; there, a point may have an
 /// opposite one or not. The rest, inside of the other body or in a part of the field too small to be kept, is
-/// closed; it counts where it has an opposite point.
+/// closed where it has an opposite point, or shut where nothing at all of the surface is wet; else it is
+/// covered, as by a wall that the field ends at.
 class EmbeddedSurface {
  public:
   /// @param number of the body among those that cut the field's mesh
@@ -28,12 +29,13 @@ class EmbeddedSurface {
   EmbeddedSurface(Field& field, const FieldCut& cut, int number, std::shared_ptr<const BodySurface> own,
                   std::shared_ptr<const BodySurface> other, ContactWindow window, int degree);
 
-  enum Zone { free, near, closed };
-  static constexpr int zone_count = 3;
+  enum Zone { free, near, closed, shut, covered };
+  static constexpr int zone_count = 5;
 
   /// Points that share the cells on all sides. Of closed ones side 0, the field, and sides 3 and 4, the two
   /// bodies, are met elsewhere, at the nearest wet point: there field and bodies are evaluated for the closed
-  /// part (extension of thesis 6.3.3). That point moves with the facets of both bodies there.
+  /// part (extension of thesis 6.3.3). That point moves with the facets of both bodies there. Shut points
+  /// have the two bodies, covered ones the own body alone.
   struct Element {
     CutPoints outside, own, other, own_edge, other_edge;
     int group = -1, other_group = -1, own_edge_group = -1, other_edge_group = -1;
@@ -56,7 +58,7 @@ class EmbeddedSurface {
   /// A stretch of a facet, or its share, that is wet.
   struct Wet {
     int facet;
-    double from, to;  ///< in the plane
+    Moves<2, 1> from, to;  ///< in the plane, as the facet moves
     double area;
   };
   /// A wet point that a closed one may take its field's trace from.
@@ -69,6 +71,17 @@ class EmbeddedSurface {
     OppositePoints::Stretch stretch;  ///< that it lies in, in the plane
     double weight;
   };
+  struct CoveredPoint {
+    int facet;
+    std::array<double, 2> on_facet;
+    double weight;
+    Moves<2, 1> from = 0.0, to = 1.0;  ///< in the plane: of the stretch that it lies in
+  };
+  /// What is not wet.
+  struct Dry {
+    std::vector<ClosedPoint> closed;
+    std::vector<CoveredPoint> covered;
+  };
   struct Key {
     int outside_cell, outside_part, group, other_group, own_edge_group, other_edge_group;
     friend bool operator==(const Key&, const Key&) = default;
@@ -77,13 +90,21 @@ class EmbeddedSurface {
                                     std::vector<OppositePoints::Break>& moving);
   template <int dim>
   void add_wet(int cell, int part, const OppositePoints& opposite);
-  void add_closed(const OppositePoints& opposite);
-  void find_closed(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
-                   std::vector<ClosedPoint>& points) const;
+  void add_dry(const OppositePoints& opposite);
+  void find_dry(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite, Dry& dry) const;
+  void find_dry_in_space(int facet, const std::vector<Wet>& wet, const OppositePoints& opposite,
+                         Dry& dry) const;
+  void add_closed(const std::vector<ClosedPoint>& points, const OppositePoints& opposite);
   void refuse_passed(int facet, const double* on_facet, const OppositePoints& opposite) const;
   template <int dim>
   void add_closed_point(const ClosedPoint& point, const std::vector<Edge>& edges,
                         const OppositePoints& opposite);
+  template <int dim>
+  void add_shut(const std::vector<ClosedPoint>& points, const OppositePoints& opposite);
+  /// The element of a zone without the field for a point on a facet; null where another rank has it.
+  Element* element_beside(Zone zone, int facet, int other_facet);
+  template <int dim>
+  void add_covered(const std::vector<CoveredPoint>& points, const Surface& now);
   /// @param span two ends of a wet stretch @param inner ends of stretches that are no ends of pieces
   static OppositePoints::Stretch stretch_at(int facet, const double* span,
                                             const std::vector<OppositePoints::Break>& inner,
@@ -122,7 +143,7 @@ class EmbeddedZone final : public IntegrationDomain, public BeginsSteps {
   void fill(int index, Element& element) const override;
   [[nodiscard]] const int* nodes(int index, int side, int block) const override;
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
-  [[nodiscard]] int swept_side() const override { return zone_ == EmbeddedSurface::closed ? -1 : 0; }
+  [[nodiscard]] int swept_side() const override { return zone_ < EmbeddedSurface::closed ? 0 : -1; }
   /// The first part finds the points of all.
   bool follow(double time) override;
   void begin_step(double from) override;
@@ -131,6 +152,8 @@ class EmbeddedZone final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] std::string description() const override;
 
  private:
+  /// Whether the field is met, here or elsewhere; else side 0 is the own body once more.
+  [[nodiscard]] bool meets_field() const { return zone_ < EmbeddedSurface::shut; }
   std::shared_ptr<EmbeddedSurface> surface_;
   EmbeddedSurface::Zone zone_;
   std::vector<Operand> movers_;

@@ -13,15 +13,18 @@ EmbeddedZone::EmbeddedZone(std::shared_ptr<EmbeddedSurface> surface, EmbeddedSur
       movers_{{1, surface_->own().displacement()}},
       of_own_(surface_->own().body(), surface_->own().place()),
       of_other_(surface_->other().body(), surface_->other().place()) {
-  if (zone != EmbeddedSurface::free) movers_.push_back({2, surface_->other().displacement()});
+  if (zone == EmbeddedSurface::free || zone == EmbeddedSurface::covered) return;
+  movers_.push_back({2, surface_->other().displacement()});
   if (zone != EmbeddedSurface::closed) return;
   movers_.push_back({3, surface_->own().displacement()});
   movers_.push_back({4, surface_->other().displacement()});
 }
 
 std::vector<Field*> EmbeddedZone::fields() const {
-  std::vector<Field*> result{&surface_->field(), &surface_->own().body()};
-  if (zone_ != EmbeddedSurface::free) result.push_back(&surface_->other().body());
+  std::vector<Field*> result{meets_field() ? &surface_->field() : &surface_->own().body(),
+                             &surface_->own().body()};
+  if (zone_ != EmbeddedSurface::free && zone_ != EmbeddedSurface::covered)
+    result.push_back(&surface_->other().body());
   if (zone_ == EmbeddedSurface::closed) {
     result.push_back(&surface_->own().body());
     result.push_back(&surface_->other().body());
@@ -40,14 +43,18 @@ void EmbeddedZone::fill(int index, Element& element) const {
   element.dimension = surface_->field().mesh().dimension();
   element.points = static_cast<int>(from.outside.weight.size());
   element.sides.resize(fields().size());
-  attach_cell(element.sides[0], surface_->field(), from.outside.cell, from.outside.part);
-  from.outside.attach(element.sides[0], true);
   const auto attach = [&](int side, const BodySurface& surface, int group, const CutPoints& points) {
     surface.cell(group).attach(element.sides[side], surface.body());
     points.attach(element.sides[side], true);
   };
+  if (meets_field()) {
+    attach_cell(element.sides[0], surface_->field(), from.outside.cell, from.outside.part);
+    from.outside.attach(element.sides[0], true);
+  } else {
+    attach(0, surface_->own(), from.group, from.own);
+  }
   attach(1, surface_->own(), from.group, from.own);
-  if (zone_ != EmbeddedSurface::free) attach(2, surface_->other(), from.other_group, from.other);
+  if (from.other_group >= 0) attach(2, surface_->other(), from.other_group, from.other);
   if (zone_ == EmbeddedSurface::closed) {
     attach(3, surface_->own(), from.own_edge_group, from.own_edge);
     attach(4, surface_->other(), from.other_edge_group, from.other_edge);
@@ -73,6 +80,7 @@ const int* EmbeddedZone::nodes(int index, int side, int block) const {
   const EmbeddedSurface::Element& from = surface_->elements(zone_)[index];
   switch (side) {
     case 0:
+      if (!meets_field()) return surface_->own().cell(from.group).nodes[block].data();
       return surface_->field().cell_nodes(block, from.outside.cell, from.outside.part);
     case 1:
       return surface_->own().cell(from.group).nodes[block].data();
@@ -98,7 +106,7 @@ void EmbeddedZone::forget_constants(bool new_step) {
 }
 
 std::string EmbeddedZone::description() const {
-  constexpr const char* name[] = {"free", "near", "closed"};
+  constexpr const char* name[] = {"free", "near", "closed", "shut", "covered"};
   return fmt::format("the {} surface of '{}' in field '{}'", name[zone_], surface_->own().body().name(),
                      surface_->field().name());
 }

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 #include "seam/assembly/together.hpp"
 #include "seam/base/diagnostics.hpp"
@@ -17,6 +19,8 @@ namespace {
 
 /// In cells: parts of less volume are dropped.
 constexpr double smallest_kept = 2;
+/// In diameters of a cell: thinner films have closed.
+constexpr double closed_film = 1e-5;
 
 }  // namespace
 
@@ -225,10 +229,29 @@ std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
       }
       ++faces[part];
     }
+  if (!draining_.empty()) {
+    const std::vector<double> cells = draining_cells(parts);
+    std::ranges::transform(faces, cells, faces.begin(), std::plus<>());
+  }
   field_->mesh().communicator().sum(faces);
   std::vector<char> open;
   for (const double count : faces) open.push_back(count > 0 ? 1 : 0);
   return open;
+}
+
+/// Owned cells of each part in which it is bounded by a body that lets it drain, and is no thinner than a
+/// film that has closed.
+std::vector<double> FieldCut::draining_cells(const WetParts& parts) const {
+  std::vector<double> result(parts.volume.size(), 0.0);
+  InterfaceRule surface;
+  for (int c = 0; c < field_->mesh().owned_cells(); ++c) {
+    if (parts.part[c] < 0 || mesh_.state(c) != CellState::cut) continue;
+    mesh_.interface_rule(c, 1, surface);
+    if (std::ranges::none_of(surface.body, [&](int body) { return draining_.contains(body); })) continue;
+    const double area = std::accumulate(surface.weight.begin(), surface.weight.end(), 0.0);
+    if (2 * mesh_.wet_volume(c) > closed_film * field_->mesh().diameter(c) * area) ++result[parts.part[c]];
+  }
+  return result;
 }
 
 /// How many owned cells of each part the last decision, if any, made this.

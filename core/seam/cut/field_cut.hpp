@@ -27,9 +27,9 @@ class StateArray;
 ///
 /// Connected parts of less than two cells' volume are no part of the field: neither could the mesh resolve
 /// what goes on in them, nor would a body that closes them let what is incompressible go. Those that reach
-/// an open boundary stay. The first cut of a step decides; whatever it keeps stays for the step, and what it
-/// drops stays out, also where it creeps into cells that were body. What was dropped stays out until it
-/// joins another part, however much it grows.
+/// an open boundary or a body that lets them drain stay. The first cut of a step decides; whatever it keeps
+/// stays for the step, and what it drops stays out, also where it creeps into cells that were body. What was
+/// dropped stays out until it joins another part, however much it grows.
 class FieldCut {
  public:
   explicit FieldCut(Field& field);
@@ -44,6 +44,8 @@ class FieldCut {
 
   /// Parts that reach these boundaries are never dropped.
   void keep_at(std::vector<std::string> boundaries) { open_boundaries_ = std::move(boundaries); }
+  /// The same of parts that this body's surface bounds, which lets through what they hold.
+  void keep_at(int body) { draining_.insert(body); }
   /// The next cut decides anew which parts are dropped.
   void begin_step() { decided_ = false; }
 
@@ -96,6 +98,8 @@ class FieldCut {
   std::vector<Body> bodies_;
   std::vector<Surface> surfaces_;  ///< at the last update
   std::vector<char> active_;
+  [[nodiscard]] std::vector<double> draining_cells(const WetParts& parts) const;
+  std::set<int> draining_;  ///< bodies
   std::vector<std::string> open_boundaries_;
   // In the field's store of states: with those of nodes, all that a cut depends on.
   StateArray<char>& decision_;  ///< Decision of each cell

@@ -57,6 +57,11 @@ class Interface {
     (void)setting, (void)time;
     return std::nullopt;
   }
+  /// Parts of the boundary of a side's mesh that are its surface on that side; empty for all of it.
+  [[nodiscard]] virtual std::vector<std::string> boundaries(int side) const {
+    (void)side;
+    return {};
+  }
   /// The interface's points, in one part or several. Points that move are asked to follow part by part, in
   /// this order. Collective.
   [[nodiscard]] virtual std::vector<InterfacePart> build(InterfaceSetup& setup) const = 0;
@@ -96,6 +101,13 @@ class Coupling {
   [[nodiscard]] virtual int extra_degree(int /*dimension*/) const { return 0; }
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
+  /// A surface term of a side's physics (FieldSetup::add_surface_term) that the coupling brings at its own
+  /// points: the physics leaves it out where the interface is, so that all sides see the same integral.
+  struct Brought {
+    int side;
+    std::string term;
+  };
+  [[nodiscard]] virtual std::vector<Brought> brings() const { return {}; }
   /// What becomes of a quantity on the interface: one number, recorded at every step as the time series
   /// `interface.name`.
   struct Measure {

@@ -60,7 +60,9 @@ class FieldSetup {
   virtual void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                                  std::vector<std::string> operands) = 0;
   /// The same over the whole outer surface of the mesh, whether or not its parts have names.
-  virtual void add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) = 0;
+  /// @param name by which couplings may bring the term at their own points, see Coupling::brings
+  virtual void add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands,
+                                const std::string& name = {}) = 0;
   /// Adds a term over the faces between two cells; its operands name a side (0 or 1) each.
   virtual void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) = 0;
   /// The same over the faces of cut cells only, for ghost penalties.

@@ -47,6 +47,7 @@ class SceneInterfaceSetup final : public InterfaceSetup {
 
 /// An interface whose points exist.
 struct BuiltInterface {
+  const Interface* of;
   std::vector<InterfacePart> parts;
   std::vector<Field*> sides;
 
@@ -108,6 +109,9 @@ class CouplingBinder {
   CouplingBinder(const SceneCoupling& of, const BuiltInterface& on) : of_(of), on_(on) {}
 
   void bind_to(Problem& problem) {
+    for (const Coupling::Brought& brought : of_.coupling->brings())
+      problem.leave_out(on_.sides.at(brought.side)->name(), brought.term, on_.of->boundaries(brought.side),
+                        of_.describe());
     CouplingSides sides{{on_.sides.begin(), on_.sides.end()}, std::vector<int>(on_.sides.size(), 0)};
     do {
       for (const auto& term : of_.coupling->terms(sides))
@@ -160,7 +164,7 @@ std::map<std::string, BuiltInterface> build_interfaces(const Scene& scene, Built
           [&] { return interface.build(setup); });
     });
     built.problem->name_interface(name, parts, where);
-    all[name] = {std::move(parts), setup.sides};
+    all[name] = {&interface, std::move(parts), setup.sides};
   };
   for (const auto& [name, interface] : built.interfaces)
     errors.attempt([&, &called = name, &of = interface] { build(called, *of); });

@@ -204,8 +204,18 @@ void FieldBuilder::add_boundary_term(const std::string& boundary, std::shared_pt
   std::set<std::string> tested;
   for (const Slot& slot : term->signature(dimension()).outputs)
     if (slot.operand < static_cast<int>(operands.size())) tested.insert(operands[slot.operand]);
-  if (!boundary.empty()) entry_.loads.emplace_back(boundary, std::move(tested));
+  entry_.loads.emplace_back(boundary, std::move(tested));
   boundary_terms_[{boundary, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
+}
+
+void FieldBuilder::add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands,
+                                    const std::string& name) {
+  require_term(term.get(), false);
+  const int degree = 2 * entry_.field->order() + term->extra_degree();
+  for (const Unknown& unknown : entry_.field->unknowns())
+    if (unknown.role != UnknownRole::motion && std::ranges::find(operands, unknown.name) != operands.end())
+      entry_.surfaces[name].unknowns.insert(unknown.name);
+  surface_terms_[{name, degree}].push_back(bind(std::move(term), on_side_zero(operands)));
 }
 
 void FieldBuilder::add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) {
@@ -314,6 +324,11 @@ void FieldBuilder::finish() {
   for (auto& [key, terms] : boundary_terms_)
     domains_.emplace_back(std::make_shared<BoundaryDomain>(*entry_.field, key.first, key.second),
                           std::move(terms));
+  for (auto& [key, terms] : surface_terms_) {
+    const auto surface = std::make_shared<BoundaryDomain>(*entry_.field, "", key.second);
+    entry_.surfaces[key.first].faces.push_back(surface);
+    domains_.emplace_back(surface, std::move(terms));
+  }
   for (auto& [key, terms] : face_terms_)
     domains_.emplace_back(std::make_shared<InteriorFaceDomain>(*entry_.field, key.second, key.first),
                           std::move(terms));

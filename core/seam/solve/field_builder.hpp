@@ -29,9 +29,8 @@ class FieldBuilder final : public FieldSetup {
   void add_uncut_cell_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override;
   void add_boundary_term(const std::string& boundary, std::shared_ptr<const Term> term,
                          std::vector<std::string> operands) override;
-  void add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands) override {
-    add_boundary_term("", std::move(term), std::move(operands));
-  }
+  void add_surface_term(std::shared_ptr<const Term> term, std::vector<std::string> operands,
+                        const std::string& name) override;
   void add_interior_face_term(std::shared_ptr<const Term> term, std::vector<Operand> operands) override;
   void add_ghost_face_term(GhostFaces faces, std::shared_ptr<const Term> term,
                            std::vector<Operand> operands) override;
@@ -63,6 +62,7 @@ class FieldBuilder final : public FieldSetup {
   /// By where they live and the degree of the quadrature.
   std::map<std::pair<CellDomain::Cells, int>, std::vector<BoundTerm>> cell_terms_;
   std::map<std::pair<std::string, int>, std::vector<BoundTerm>> boundary_terms_;
+  std::map<std::pair<std::string, int>, std::vector<BoundTerm>> surface_terms_;  ///< by their own name
   std::map<std::pair<InteriorFaceDomain::Faces, int>, std::vector<BoundTerm>> face_terms_;
 };
 

@@ -251,6 +251,27 @@ void Problem::add_coupling(std::shared_ptr<IntegrationDomain> interface, std::ve
   domains_.emplace_back(std::move(interface), std::move(terms));
 }
 
+void Problem::leave_out(const std::string& name, const std::string& term,
+                        const std::vector<std::string>& boundaries, const std::string& who) {
+  const FieldEntry& entry = field(name);
+  const auto found = entry.surfaces.find(term);
+  if (found == entry.surfaces.end())
+    throw Error(
+        fmt::format("{} brings the term '{}' on the surface of field '{}', which has none of this name", who,
+                    term, name));
+  const auto& [faces, unknowns] = found->second;
+  for (const auto& [boundary, tested] : entry.loads) {
+    if (!boundaries.empty() && std::ranges::find(boundaries, boundary) == boundaries.end()) continue;
+    for (const std::string& unknown : tested)
+      if (unknowns.contains(unknown))
+        throw Error(fmt::format(
+            "{} says what passes through boundary '{}' of field '{}', and so does a condition there on '{}'; "
+            "leave the condition out, or name in `boundaries` of the interface those without it",
+            who, boundary, name, unknown));
+  }
+  for (const auto& surface : faces) surface->leave_out(boundaries);
+}
+
 void Problem::add_constraint(std::unique_ptr<Constraint> constraint, const Location& where) {
   FieldsForConstraint setup(*this);
   constraint->build(setup);

@@ -18,6 +18,7 @@
 namespace seam {
 
 class Assembler;
+class BoundaryDomain;
 class JoinsFields;
 class CutMesh;
 class Field;
@@ -78,7 +79,13 @@ struct FieldEntry {
   std::vector<LevelCondition> levels;
   /// Of each term on a boundary: its name, and the unknowns on whose equations it acts.
   std::vector<std::pair<std::string, std::set<std::string>>> loads;
-  std::unique_ptr<FieldCut> cut;  ///< null when nothing cuts the field's mesh
+  /// A term on all of the mesh's surface.
+  struct SurfaceTerm {
+    std::vector<std::shared_ptr<BoundaryDomain>> faces;
+    std::set<std::string> unknowns;  ///< that it speaks of, but for the motion
+  };
+  std::map<std::string, SurfaceTerm> surfaces;  ///< by name
+  std::unique_ptr<FieldCut> cut;                ///< null when nothing cuts the field's mesh
   std::vector<FieldQuantity> outputs, integrals;
 };
 
@@ -115,6 +122,12 @@ class Problem {
                    std::unique_ptr<Physics> physics, const Location& where = {});
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
+  /// Leaves a surface term of a field out where a coupling brings it.
+  /// @param boundaries of the field's mesh; empty for all @param who brings it
+  /// @throws Error when the field has no such term, or a condition on one of the boundaries speaks of the
+  /// same unknowns
+  void leave_out(const std::string& field, const std::string& term,
+                 const std::vector<std::string>& boundaries, const std::string& who);
   void add_measure(InterfaceMeasure measure) { measures_.push_back(std::move(measure)); }
   [[nodiscard]] const std::vector<InterfaceMeasure>& measures() const { return measures_; }
   /// Builds a constraint and ties unknowns as it says. When all fields are there, before finish().

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A porous column on a wall: the force on the wall, and how it consolidates.
+// Porous columns without a flow around them: the force on the wall below, how they consolidate, and what
+// leaves them.
+#include <algorithm>
 #include <cmath>
 
 #include "scene_run.hpp"
@@ -77,4 +79,45 @@ TEST_CASE("a porous column under load consolidates as diffusion tells") {
   CHECK(base[399] == Approx(0.018952).epsilon(0.01));
   CHECK(top[399] == Approx(-7.5868e-4).epsilon(0.01));
   CHECK(base[800] == Approx(0.0063131).epsilon(0.01));
+}
+
+TEST_CASE("a porous body loses in each step what flows out of it, at any strain") {
+  const ShippedRun run("poro/squeezed_column");
+  const std::vector<double> time = run.series("time"), volume = run.series("column.fluid_volume"),
+                            outflow = run.series("outflow");
+  REQUIRE(time.size() > 50);
+  CHECK(volume.back() < 0.4 * volume.front());
+  for (std::size_t k = 1; k < time.size(); ++k)
+    CHECK(std::abs(volume[k - 1] - volume[k] - (time[k] - time[k - 1]) * outflow[k]) < 1e-9 * volume.front());
+}
+
+TEST_CASE("walls of a porous body may be made tight weakly", "[sanitized]") {
+  const std::string
+      coarse = "--set time.end=2 --set checks=[] ",
+      weak =
+          "--set 'fields.column.boundary.0={on: [x_min, x_max], displacement: [0, null], seepage: "
+          "0}' --set 'fields.column.boundary.1={on: y_min, displacement: [0, 0], seepage: 0}'";
+  const ShippedRun strong_run("poro/squeezed_column", coarse),
+      weak_run("poro/squeezed_column", coarse + weak);
+  const std::vector<double> time = weak_run.series("time"), volume = weak_run.series("column.fluid_volume"),
+                            outflow = weak_run.series("outflow");
+  for (const auto* series : {"top", "column.fluid_volume", "base", "outflow"}) {
+    INFO(series);
+    const std::vector<double> one = strong_run.series(series), other = weak_run.series(series);
+    double size = 0, most = 0;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      size = std::max(size, std::abs(one[k]));
+      most = std::max(most, std::abs(one[k] - other[k]));
+    }
+    CHECK(most < 0.01 * size);
+  }
+  for (std::size_t k = 1; k < time.size(); ++k)
+    CHECK(std::abs(volume[k - 1] - volume[k] - (time[k] - time[k - 1]) * outflow[k]) < 1e-9 * volume.front());
+}
+
+TEST_CASE("two conditions on what flows through one boundary are refused") {
+  const Result run = seam("run " SEAM_SOURCE_DIR
+                          "/configs/poro/turned_block.yaml --set fields.block.boundary.0.velocity=[0,0]");
+  CHECK(run.code != 0);
+  CHECK_THAT(run.output, Catch::Contains("found `seepage` and `velocity` on the same boundary"));
 }

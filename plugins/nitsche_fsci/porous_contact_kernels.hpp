@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "contact_in_fluid_kernels.hpp"
+#include "fluid_porous.hpp"
+
+/// Fluid, porous body and its contact with an impermeable one by one formula, thesis chapter 7. With the
+/// body's outward normal n = -n_F, w = v_P - du/dt and the seepage q = phi w.n out of the body:
+///
+///   the mixture gets   min(F, S) n,   S = n . sigma_P n + gamma_S g, sigma_P with the pore pressure,
+///   the fluid          F n and its friction,   F = n . sigma_F n + gamma_F ((v - du/dt) . n - q^)
+///   the pores          -p^ n,         and lose q^ to the fluid.
+///
+/// q^ and p^ are what the seal between body and body leaves of seepage and of the fluid's pressure: `Seal`.
+/// Free points are those of `fpi`, the gap infinite; closed ones are sealed, F is that of the nearest wet
+/// point; covered ones, where nothing is known of what lies outside, are sealed and free of load.
+namespace seam::fsci {
+
+using FacingDisplacement = Vector<5>;
+using TipDisplacement = Vector<5>;
+
+/// How pores are sealed as a gap closes.
+struct Seal {
+  enum class Kind {
+    resistance,  ///< p + F = R q, R = c alpha/(1 - alpha): one flux q^ on both sides
+    printed,     ///< thesis (7.25)-(7.28): alpha of the seepage is lost to the fluid
+    sudden       ///< open until a point is dry
+  };
+  Kind kind;
+  double width;  ///< m, of the gap in which alpha rises from 0 to 1; 0: a hundredth of the fluid's cell
+  double dry;    ///< m: points whose gap at the start of a step was less are sealed
+
+  /// alpha: 0 open, 1 sealed. @param start the gap at the start of the step
+  template <int dim, class T, class G>
+  [[nodiscard]] T closed(const Point<dim, G>& x, double start) const {
+    if (start < dry || plain(x.gap) <= 0) return T(1.0);
+    const double within = kind == Kind::sudden ? 0 : width > 0 ? width : 0.01 * x.cell_size;
+    if (plain(x.gap) >= within) return T(0.0);
+    return 1 - (1 / within) * T(x.gap);
+  }
+};
+
+/// What passes between fluid and pores, out of the body, m/s, and what presses on both, Pa.
+template <class T>
+struct Exchange {
+  T pull;           ///< F
+  T into_fluid;     ///< q^ as the fluid's balance has it
+  T out_of_pores;   ///< q^ as the pores' has it
+  T pore_pressure;  ///< p^
+};
+
+/// @param stress n . sigma_F n @param penalty gamma_F, Pa s/m @param speed (v - du/dt) . n
+/// @param c resistance mu l/k of a layer of the pores as thick as the fluid's cell, Pa s/m
+///
+/// With the resistance, every beta in [0, 1] imposes it: p^ = beta (R q - F) + (1 - beta) p, q^ = beta q + (1
+/// - beta)(p + F)/R. beta = c/(c + R) = 1 - alpha has no number that grows without bound. The power that the
+/// seal takes, beta R q^2 + (1 - beta)(p + F)^2/R, is never negative.
+template <class T>
+Exchange<T> exchange(const Seal& seal, const T& alpha, const T& stress, const T& penalty, const T& speed,
+                     const T& pressure, const T& seepage, const T& c) {
+  const T open = 1 - alpha;
+  if (seal.kind == Seal::Kind::resistance) {
+    const T leak = open / c;
+    const T pull = (stress + penalty * (speed - open * seepage - leak * pressure)) / (1 + penalty * leak);
+    const T through = open * seepage + leak * (pressure + pull);
+    return {pull, through, through, alpha * (pressure + c * seepage) - open * pull};
+  }
+  const T flow = seal.kind == Seal::Kind::sudden ? open * seepage : seepage;
+  const T pull = stress + penalty * (speed - flow);
+  return {pull, flow, open * seepage, alpha * pressure - open * pull};
+}
+
+/// A porous body's own part of what its kernels read.
+template <class... More>
+using PorousReads =
+    Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>, OldValue<Displacement>,
+          Rate<Displacement>, Gradient<Displacement>, Value<PoreVelocity>, Value<PorePressure>, More...>;
+
+/// The porous body at a point: its pores and its stress.
+struct PorousSide {
+  PorousMismatch mismatch;
+  std::shared_ptr<const Law> mixture;
+  double viscosity;  ///< Pa s
+  double penalty;    ///< gamma_0 of contact
+  Seal seal;
+
+  template <class T>
+  struct State {
+    T porosity, permeability, seepage, pressure;
+  };
+  template <int dim, class T, class G, class S>
+  [[nodiscard]] State<T> state(const Point<dim, G>& x, const S& s) const {
+    const auto [porosity, permeability] = mismatch.template of_pores<dim, T>(s);
+    const Vec<dim, T> w = s.value(PoreVelocity{}) - s.rate(Displacement{});
+    return {porosity, permeability, T(-1.0 * porosity * dot(w, x.normal)), s.value(PorePressure{})};
+  }
+  /// c
+  template <int dim, class T, class G>
+  [[nodiscard]] T resistance(const Point<dim, G>& x, const State<T>& state) const {
+    return (viscosity * x.cell_size) / state.permeability;
+  }
+  /// S
+  template <int dim, class T, class G, class S>
+  [[nodiscard]] T pull(const Point<dim, G>& x, const S& s) const {
+    return mixture_stress<dim, T>(*mixture, s.gradient(Displacement{}), T(s.value(PorePressure{})),
+                                  x.normal) +
+           penalty * x.constant[0] * x.gap;
+  }
+};
+
+/// The wet surface of a porous body. @tparam is_near whether there is another surface at a gap
+template <bool is_near>
+struct PorousFilm {
+  using Reads =
+      std::conditional_t<is_near, PorousReads<Value<FacingDisplacement>, OldValue<FacingDisplacement>>,
+                         PorousReads<>>;
+  using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>,
+                      Value<PoreVelocity>, Value<PorePressure>>;
+  static constexpr int movers = is_near ? 2 : 1;
+  Flow flow;
+  PorousSide body;
+  Slip slip;     ///< near the other surface
+  double alpha;  ///< of Beavers and Joseph; infinite: no slip
+  Ties ties;
+
+  /// @param x side 0's point, normal out of the fluid
+  template <int dim, class T, class G>
+  [[nodiscard]] Exchange<T> passes(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    const auto state = body.template state<dim, T, G>(x, s);
+    const Vec<dim, G>& n = x.normal;
+    const Vec<dim, T> velocity = s.value(Velocity{});
+    const T stress = dot(n, ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n) - s.value(Pressure{});
+    const T penalty = (ties.normal_penalty / x.trace_size) * fsci::resistance<dim, T, G>(flow, x, velocity);
+    const T speed = -1.0 * dot(velocity - s.rate(Displacement{}), n);
+    return exchange<T>(body.seal, body.seal.template closed<dim, T, G>(x, start<dim, T, G>(x, s)), stress,
+                       penalty, speed, state.pressure, state.seepage,
+                       body.template resistance<dim, T, G>(x, state));
+  }
+
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    using std::sqrt;
+    const auto state = body.template state<dim, T, G>(x, s);
+    const Exchange<T> passing = passes<dim, T, G>(x, s);
+    const Vec<dim, G>& n = x.normal;
+    Vec<dim, T> jump = body.mismatch.template operator()<dim, T, G>(x, s, state.porosity);
+    const T across = dot(s.value(Velocity{}) - s.rate(Displacement{}), n) + passing.into_fluid;
+    jump += (across - dot(jump, n)) * n;
+    Slip::Ratio<T> ratio{T((1 / alpha) * sqrt(state.permeability)), T(1.0)};
+    if constexpr (is_near) ratio = near_ratio<dim, T, G>(x, ratio.gliding);
+    const Vec<dim, T> traction = tie<dim, T, G>(flow, ties, x, s, jump, ratio, nullptr, r);
+    r.value(Displacement{}) -= traction;
+    r.value(PoreVelocity{}) -= passing.pore_pressure * n;
+    r.value(PorePressure{}) += passing.out_of_pores;
+    if constexpr (is_near) {
+      const T contact = body.template pull<dim, T, G>(x, s);
+      if (plain(contact) < plain(passing.pull)) r.value(Displacement{}) += (contact - passing.pull) * n;
+    }
+  }
+
+  /// The gap at the start of the step, by how far the surfaces have come since.
+  template <int dim, class T, class G>
+  [[nodiscard]] static double start(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) {
+    if constexpr (is_near) {
+      double gap = plain(x.gap);
+      const auto u = s.value(Displacement{}), u_old = s.old_value(Displacement{}),
+                 facing = s.value(FacingDisplacement{}), facing_old = s.old_value(FacingDisplacement{});
+      for (int i = 0; i < dim; ++i)
+        gap -= (plain(u[i]) - plain(u_old[i]) - plain(facing[i]) + plain(facing_old[i])) * plain(x.normal[i]);
+      return gap;
+    } else {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+
+ private:
+  /// Slip over the pores, and over what a narrow gap adds.
+  template <int dim, class T, class G>
+  [[nodiscard]] Slip::Ratio<T> near_ratio(const Point<dim, G>& x, const T& length) const {
+    const double reach = slip.reach > 0 ? slip.reach : x.cell_size / std::sqrt(static_cast<double>(dim));
+    if (slip.near == 0 || plain(x.gap) >= reach) return {length, T(1.0)};
+    if (plain(x.gap) <= 0) return {T(1.0), T(0.0)};
+    return {slip.near * reach * (reach - x.gap) + length * x.gap, T(x.gap)};
+  }
+};
+
+/// A sealed surface: p^ = p + c q, and nothing passes; c q holds the normal velocity of the fluid in the
+/// pores.
+template <int dim, class T, class G, class S, class R>
+void add_seal(const PorousSide& body, const Point<dim, G>& x, const S& s, R& r) {
+  const auto state = body.template state<dim, T, G>(x, s);
+  T pressure = state.pressure;
+  if (body.seal.kind == Seal::Kind::resistance)
+    pressure += body.template resistance<dim, T, G>(x, state) * state.seepage;
+  r.value(PoreVelocity{}) -= pressure * x.normal;
+}
+
+/// min(F, S) on the mixture, and pores that are sealed.
+template <int dim, class T, class G, class S, class R>
+void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& pull, R& r) {
+  const T contact = body.template pull<dim, T, G>(x, s);
+  r.value(Displacement{}) += (plain(contact) < plain(pull) ? contact : pull) * x.normal;
+  add_seal<dim, T, G>(body, x, s, r);
+}
+
+/// The closed surface of a porous body.
+struct PorousClosed {
+  using Reads = PorousReads<Rate<TipDisplacement>>;
+  using Tests = Slots<Value<Displacement>, Value<PoreVelocity>>;
+  static constexpr int movers = 4;
+  FluidPull fluid;
+  PorousSide body;
+  bool fades;  ///< F turns into -p within a fluid's cell of the nearest wet point, thesis (7.30); else (7.29)
+
+  /// F of the nearest wet point, as the closed part has it.
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    using std::sqrt;
+    const T tip = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
+                                              s.value(Pressure{}), s.rate(TipDisplacement{}));
+    if (!fades) return tip;
+    Vec<dim, T> way = s.value(Displacement{});
+    way += x.partner_position - x.position;
+    const T square = dot(way, way);
+    if (plain(square) <= 0) return tip;
+    if (plain(square) >= x.cell_size * x.cell_size) return -s.value(PorePressure{});
+    const T part = (1 / x.cell_size) * sqrt(square);
+    return (1 - part) * tip - part * s.value(PorePressure{});
+  }
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    return body.pull<dim, T, G>(x, s);
+  }
+
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    add_dry<dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
+  }
+};
+
+/// The surface of a porous body of which nothing is in the fluid, where it faces the other body.
+struct PorousShut {
+  using Reads = Slots<Gradient<Displacement>, Rate<Displacement>, Value<PoreVelocity>, Value<PorePressure>>;
+  using Tests = Slots<Value<Displacement>, Value<PoreVelocity>>;
+  static constexpr int movers = 2;
+  PorousSide body;
+  bool fades;  ///< F is -p, thesis (7.30); else nothing
+
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_fluid(const Point<dim, G>&, const Trial<dim, T, Reads>& s) const {
+    return fades ? T(-s.value(PorePressure{})) : T(0.0);
+  }
+  template <int dim, class T, class G>
+  [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    return body.pull<dim, T, G>(x, s);
+  }
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    add_dry<dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
+  }
+};
+
+/// The surface of a porous body that nothing is known of.
+struct PorousCovered {
+  using Reads = Slots<Gradient<Displacement>, Rate<Displacement>, Value<PoreVelocity>, Value<PorePressure>>;
+  using Tests = Slots<Value<PoreVelocity>>;
+  PorousSide body;
+
+  template <int dim, class T, class G>
+  void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
+    add_seal<dim, T, G>(body, x, s, r);
+  }
+};
+
+}  // namespace seam::fsci
