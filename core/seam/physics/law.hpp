@@ -14,9 +14,9 @@ namespace seam {
 /// (FieldSetup::publish), so that a coupling can use it without knowing the physics. Names in use:
 ///   "stress": the first Piola-Kirchhoff stress, Pa, [dimension][dimension], of the displacement gradient,
 ///             [dimension][dimension], the derivative's direction runs fastest;
-///   "mixture":  the same of skeleton and fluid in its pores, of the gradient and, last, the pore pressure, Pa;
-///   "skeleton": the same of the skeleton alone, as "stress" is;
-///   "pores":  porosity and a third of the trace of the spatial permeability, m^2, of the displacement
+///   "mixture":  the same of skeleton and fluid in its pores, of the gradient and, last, the pore pressure,
+///   Pa; "skeleton": the same of the skeleton alone, as "stress" is; "pores":  porosity and a third of the
+///   trace of the spatial permeability, m^2, of the displacement
 ///             gradient and, last, the pore pressure, Pa.
 class Law {
  public:
