@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "contact_in_fluid.hpp"
 
+#include <algorithm>
+
 #include "contact_in_fluid_kernels.hpp"
 #include "coupling_sides.hpp"
 #include "seam/field/field.hpp"
@@ -14,15 +16,19 @@ using SideTerm = Coupling::SideTerm;
 
 const std::vector<Operand> free_operands{{0, "velocity"}, {0, "pressure"}, {1, "displacement"}};
 
-/// What the terms of a part where there is another body stand for. @param edge the side of operand 4
+/// What the terms of a part where there is another body stand for.
+/// @param edge the side of operand 4, of closed parts; else -1
 std::vector<Operand> operands_of(const CouplingSides& sides, bool meets_fluid, int edge) {
   std::vector<Operand> result = free_operands;
   if (!meets_fluid) result[0] = result[1] = {1, "displacement"};
   result.push_back({2, "displacement"});
-  result.push_back({edge, "displacement"});
-  if (is_porous(sides, 2)) result.push_back({2, "pressure"});
+  const bool porous = is_porous(sides, 2);
+  // Operand 5 is the pressure, also where there is no edge.
+  if (edge >= 0 || porous) result.push_back({std::max(edge, 1), "displacement"});
+  if (porous) result.push_back({2, "pressure"});
   return result;
 }
+
 /// A deforming body in a fluid that may touch another one, or itself.
 class ContactInFluid final : public Coupling {
  public:
@@ -89,9 +95,9 @@ class ContactInFluid final : public Coupling {
   [[nodiscard]] std::vector<SideTerm> contact(const CouplingSides& sides) const {
     const std::vector<SideConstant> scale = scales(sides);
     return {
-        {make_term(near_contact<porous>(sides), 1), operands_of(sides, true, 1), scale, "near"},
+        {make_term(near_contact<porous>(sides), 1), operands_of(sides, true, -1), scale, "near"},
         {make_term(closed_contact<porous>(sides), 1), operands_of(sides, true, 3), scale, "closed"},
-        {make_term(ShutContact<porous>{{bodies(sides)}}, 1), operands_of(sides, false, 1), scale, "shut"}};
+        {make_term(ShutContact<porous>{{bodies(sides)}}, 1), operands_of(sides, false, -1), scale, "shut"}};
   }
   template <bool porous>
   [[nodiscard]] std::vector<Measure> measures_of(const CouplingSides& sides) const {
@@ -100,9 +106,9 @@ class ContactInFluid final : public Coupling {
     using Shut = TouchState<ShutContact<porous>>;
     using Number = typename Near::Number;
     const std::vector<SideConstant> scale = scales(sides);
-    const std::vector<Operand> near_operands = operands_of(sides, true, 1),
+    const std::vector<Operand> near_operands = operands_of(sides, true, -1),
                                closed_operands = operands_of(sides, true, 3),
-                               shut_operands = operands_of(sides, false, 1);
+                               shut_operands = operands_of(sides, false, -1);
     const NearContact<porous> near = near_contact<porous>(sides);
     const ClosedContact<porous> closed = closed_contact<porous>(sides);
     const ShutContact<porous> shut{{bodies(sides)}};

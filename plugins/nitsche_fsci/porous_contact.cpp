@@ -162,6 +162,11 @@ class PorousContact final : public Coupling {
                       "its pores and the "
                       "stress of its mixture are (a porous_solid does)",
                       sides.fields[1]->name()));
+    if (is_porous(sides, 2))
+      throw Error(
+          fmt::format("`porous_contact_in_fluid` is for a porous body and one that lets nothing through; "
+                      "field '{}' is porous, too",
+                      sides.fields[2]->name()));
     return {{pores, {}, parameters_.text("slip_against") == "skeleton"},
             mixture,
             flow_of(sides).viscosity,
