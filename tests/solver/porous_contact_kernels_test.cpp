@@ -68,9 +68,35 @@ void check_width() {
         0);
 }
 
+struct GivenPores final : Law {
+  void evaluate(int, const double*, double* value, double*, double*) const override {
+    value[0] = 0.4;   // porosity
+    value[1] = 0.02;  // a third of the trace of the permeability
+  }
+};
+
+/// Where pores are tight their pressure resists what flows out, with c = mu l/k: power is lost, not won.
+void check_tight() {
+  Point<2> x;
+  x.normal = {{-0.6, -0.8}};  // out of the fluid: the body's own is (0.6, 0.8)
+  x.cell_size = 0.5;
+  const PorousSide body{
+      {std::make_shared<GivenPores>(), {}, false}, nullptr, 3, 1, {Seal::Kind::resistance, 0, 0}};
+  // grad u, du/dt, v, p
+  const double in[] = {0.1, 0.2, -0.1, 0.3, 0.5, -0.2, 0.9, 0.7, 1.7};
+  REQUIRE(PorousCovered::Reads::size(2) == 9);
+  double out[2] = {};
+  Test<2, double, PorousCovered::Tests> r{out};
+  PorousCovered{body}.operator()<2, double, double>(x, Trial<2, double, PorousCovered::Reads>{in}, r);
+  const double seepage = 0.4 * ((0.9 - 0.5) * 0.6 + (0.7 + 0.2) * 0.8), c = 3 * 0.5 / 0.02;
+  CHECK(out[0] == Approx((1.7 + c * seepage) * 0.6));
+  CHECK(out[1] == Approx((1.7 + c * seepage) * 0.8));
+}
+
 }  // namespace
 
 TEST_CASE("a seal takes power, loses no fluid, and closes within its width") {
   check_exchange();
   check_width();
+  check_tight();
 }
