@@ -51,6 +51,43 @@ TEST_CASE("a step that uncovers more than a layer of cells is halved", "[sanitiz
   CHECK(rows.back()[0] == 0.6);
 }
 
+TEST_CASE("a body that cannot be cut out in the middle of a run refuses the step, on all ranks") {
+  const Folder folder;
+  std::ofstream(folder.path / "rim.yaml") << R"yaml(
+title: A body that is open below rises until its rim is in the water
+dimension: 2
+plugins: [solid, cutfem_fluid, nitsche_fsci]
+meshes:
+  box: {grid: {from: [0, 0], to: [1, 1], cells: [8, 8]}}
+  stick: {grid: {from: [0.31, -0.52], to: [0.72, 0.21], cells: [2, 4]}}
+fields:
+  water: {type: cutfem_fluid, mesh: box, density: 1, viscosity: 1, boundary: [{on: [x_min, x_max], velocity: [0, 0]}]}
+  stick:
+    type: solid
+    mesh: stick
+    material: {type: neo_hookean, young: 1, poisson: 0}
+    boundary: [{on: [x_min, x_max, y_min, y_max], displacement: [0, "1.2*t"]}]
+interfaces: {skin: {type: embedded, field: water, body: stick, boundaries: [x_min, x_max, y_max]}}
+coupling: [{type: fsi, on: skin}]
+time: {theta: 1, end: 1, step: {initial: 0.05, minimum: 0.02}}
+)yaml";
+  for (const std::string& before :
+       {std::string(), std::string("timeout 1000 mpirun --oversubscribe -np 2 ")}) {
+    CAPTURE(before);
+    const Result result = seam("run " + (folder.path / "rim.yaml").string() + " --quiet --folder " +
+                                   (folder.path / (before.empty() ? "one" : "two")).string(),
+                               before);
+    CHECK(result.code != 0);
+    CHECK_THAT(result.output, Contains("the step from t = 0.425 fails down to a length of 0.025"));
+    CHECK_THAT(result.output, Contains("not closed inside of it"));
+    CHECK_THAT(result.output, Contains("last good state (t = 0.425"));
+  }
+  // Such a body at the start is a mistake.
+  const Result wrong = seam("run " + (folder.path / "rim.yaml").string() + " --quiet --folder " +
+                            (folder.path / "wrong").string() + " --set meshes.stick.grid.from=[0.31,0.12]");
+  CHECK_THAT(wrong.output, Contains("not closed inside of it") && !Contains("the step from"));
+}
+
 TEST_CASE("a flow that a moving cut reproduces is solved to a tolerance that rounding alone keeps it from") {
   const Run shear(R"yaml(
 title: Couette flow with slip at a weak wall, a body moves through the mesh with the flow's own velocity on it

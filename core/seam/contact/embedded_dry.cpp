@@ -161,6 +161,7 @@ void EmbeddedSurface::add_shut(const std::vector<ClosedPoint>& points, const Opp
     for (const auto& component : point.normal.c) element->normal.push_back(component.v);
     add_motion<dim>(*element, facet, point, moves);
     add_partner(*element, hit, pair, moves);
+    element->gap.back() -= closed_film_;
   }
 }
 

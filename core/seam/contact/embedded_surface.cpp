@@ -34,7 +34,11 @@ EmbeddedSurface::EmbeddedSurface(Field& field, const FieldCut& cut, int number,
       other_(std::move(other)),
       window_(window),
       passage_(own_, other_, window),
-      rule_(&quadrature(field.mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree_)) {}
+      rule_(&quadrature(field.mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree_)) {
+  for (int c = 0; c < field.mesh().cells(); ++c)
+    closed_film_ = std::max(closed_film_, FieldCut::closed_film * field.mesh().diameter(c));
+  closed_film_ = field.mesh().communicator().max(closed_film_);
+}
 
 bool EmbeddedSurface::follow() {
   const std::vector<Key> before = keys();
@@ -77,7 +81,7 @@ std::vector<double> EmbeddedSurface::divide(int facet, double from, double to, c
                                             std::vector<OppositePoints::Break>& moving) {
   std::vector<double> places;
   for (const OppositePoints::Stretch& stretch : opposite.stretches(facet, from, to))
-    if (stretch.from.vertex >= 0) {
+    if (stretch.from.vertex >= 0 && stretch.from.share > from) {
       places.push_back(stretch.from.share);
       moving.push_back(stretch.from);
     }

@@ -35,7 +35,8 @@ class EmbeddedSurface {
   /// Points that share the cells on all sides. Of closed ones side 0, the field, and sides 3 and 4, the two
   /// bodies, are met elsewhere, at the nearest wet point: there field and bodies are evaluated for the closed
   /// part (extension of thesis 6.3.3). That point moves with the facets of both bodies there. Shut points
-  /// have the two bodies, covered ones the own body alone.
+  /// have the two bodies, covered ones the own body alone. Of a shut point's gap the film that counts as
+  /// closed is taken off: nothing but the other body holds this one there.
   struct Element {
     CutPoints outside, own, other, own_edge, other_edge;
     int group = -1, other_group = -1, own_edge_group = -1, other_edge_group = -1;
@@ -127,6 +128,7 @@ class EmbeddedSurface {
   int number_, degree_;
   std::shared_ptr<const BodySurface> own_, other_;
   ContactWindow window_;
+  double closed_film_ = 0;  ///< m, the thickness of a film of the field that has closed
   Passage passage_;
   const Quadrature* rule_;  ///< on closed facets
   std::array<std::vector<Element>, zone_count> elements_;

@@ -138,8 +138,13 @@ OppositePoints::Break OppositePoints::end_at(int facet, double share) const {
       const double length = std::sqrt(dot(edge, edge)), there = dot(way, edge) / (length * length);
       const double height = (way[0] * edge[1] - way[1] * edge[0]) / length;
       const bool is_itself = is_itself_ && is_own_neighbourhood(facet, other);
-      if (!is_itself && std::abs(height) < reach && there > -nearness && there < 1 + nearness)
-        return {share, other};
+      if (is_itself || std::abs(height) >= reach || there <= -nearness || there >= 1 + nearness) continue;
+      const auto is_flush = [&](const Vector& end) { return std::abs(dot(end - x, direction)) < reach; };
+      if (!is_flush(v[0]) || !is_flush(v[1])) return {share, other};
+      // Flush facets cross nowhere: the part ends where the other one does, or keeps its place.
+      for (int k = 0; k < 2; ++k)
+        if (std::abs(there - k) < nearness)
+          return {share, other, search_.surface().facets[static_cast<std::size_t>(other) * 2 + k]};
     }
   }
   return {share};

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
+#include "seam/assembly/together.hpp"
 #include "seam/cut/agree_on_faces.hpp"
 #include "seam/cut/cell_map.hpp"
 #include "seam/cut/clip.hpp"
@@ -105,16 +107,20 @@ void CutMesh::cut(std::span<const Surface> bodies) {
   Geometry& g = *geometry_;
   const int dim = g.outline.dimension;
   g.bodies.assign(bodies.begin(), bodies.end());
-  const Lattice before = g.facets.lattice;
-  g.facets = collect_facets(g.outline, g.border, bodies);
-  if (dim == 2) unite_in_plane(g.facets);
-  if (g.vertex.empty() || !(g.facets.lattice == before)) {
-    g.vertex.clear();
-    for (const Vector& x : g.outline.position) g.vertex.push_back(g.facets.lattice.round(x));
-  }
   const ClipInput input{g.outline, g.vertex, g.facets};
-  g.cells = clip(input, candidates(g.search, g.facets));
-  const Coverage coverage(*mesh_, g.outline, g.vertex, g.facets, g.cells, dim == 2 || are_apart(g.facets));
+  std::optional<Coverage> found;
+  together(mesh_->communicator(), [&] {
+    const Lattice before = g.facets.lattice;
+    g.facets = collect_facets(g.outline, g.border, bodies);
+    if (dim == 2) unite_in_plane(g.facets, g.border);
+    if (g.vertex.empty() || !(g.facets.lattice == before)) {
+      g.vertex.clear();
+      for (const Vector& x : g.outline.position) g.vertex.push_back(g.facets.lattice.round(x));
+    }
+    g.cells = clip(input, candidates(g.search, g.facets));
+    found.emplace(*mesh_, g.outline, g.vertex, g.facets, g.cells, dim == 2 || are_apart(g.facets));
+  });
+  const Coverage& coverage = *found;
   for (int c = 0; c < mesh_->cells(); ++c) {
     const int vertex = g.outline.sides[g.outline.first_side[c]].vertex[0];
     state_[c] = coverage.count()[vertex] > 0 ? CellState::body : CellState::wet;

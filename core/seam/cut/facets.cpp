@@ -279,6 +279,11 @@ Facets collect_facets(const Outline& outline, const Border& border, std::span<co
   return facets;
 }
 
+LatticePoint far_from(LatticePoint point) {
+  point.x[0] = std::int64_t{1} << 51;
+  return point;
+}
+
 int crossing(const Facets& facets, const Facet& facet, const LatticePoint& a, const LatticePoint& b) {
   const LatticePoint &p = facets.point[facet.vertex[0]], &q = facets.point[facet.vertex[1]];
   if (facets.dimension == 2) {
@@ -336,11 +341,6 @@ LatticePoint middle_of(const Facets& facets, const Facet& f) {
   for (int i = 0; i < 3; ++i)
     middle.x[i] = facets.dimension == 2 ? (p.x[i] + q.x[i]) / 2 : (p.x[i] + q.x[i] + r.x[i]) / 3;
   return middle;
-}
-
-LatticePoint far_from(LatticePoint point) {
-  point.x[0] = std::int64_t{1} << 51;
-  return point;
 }
 
 /// From the side of a facet that is not far, and the facets on the way to it.

@@ -43,6 +43,9 @@ class Border;
 /// @throws Error as CutMesh::cut does
 Facets collect_facets(const Outline& outline, const Border& border, std::span<const Surface> bodies);
 
+/// A point beside another one, beyond all facets.
+LatticePoint far_from(LatticePoint point);
+
 /// +1 when a step from mesh vertex a to b passes the facet from front to back, that is into the body, -1 the
 /// other way, 0 when it misses.
 int crossing(const Facets& facets, const Facet& facet, const LatticePoint& a, const LatticePoint& b);

@@ -11,6 +11,7 @@
 
 #include "seam/assembly/together.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/base/plugin_fault.hpp"
 #include "seam/cut/part_sets.hpp"
 #include "seam/state/state_store.hpp"
 
@@ -19,8 +20,6 @@ namespace {
 
 /// In cells: parts of less volume are dropped.
 constexpr double smallest_kept = 2;
-/// In diameters of a cell: thinner films have closed.
-constexpr double closed_film = 1e-5;
 
 }  // namespace
 
@@ -65,14 +64,17 @@ bool FieldCut::update(double time) {
   if (time != time_) decided_ = false;
   time_ = time;
   const bool decides = !decided_;
-  decided_ = true;
   if (decides) {
     std::ranges::fill(held_.now(), 0);
     field_->keep_cut_faces(false);
   }
-  if (surfaces == surfaces_ && (!decides || (is_first_cut_ && !is_filling_)) && states_match()) return false;
+  if (surfaces == surfaces_ && (!decides || (is_first_cut_ && !is_filling_)) && states_match()) {
+    decided_ = true;
+    return false;
+  }
   const std::vector<char> before = decision_.now();
-  mesh_.cut(surfaces);
+  cut(surfaces);
+  decided_ = true;
   surfaces_ = std::move(surfaces);
   is_first_cut_ = decides;
   dropped_volume_ = mesh_.drop(decides ? decide() : follow_decision());
@@ -86,6 +88,20 @@ bool FieldCut::update(double time) {
   field_->occupy(active_, &mesh_);
   extension_.extend();
   return true;
+}
+
+/// What cannot be cut at the start is a mistake; later it is where an iteration, or a step, went astray.
+void FieldCut::cut(const std::vector<Surface>& surfaces) {
+  try {
+    mesh_.cut(surfaces);
+  } catch (const PluginFault&) {
+    throw;
+  } catch (const Error& error) {
+    if (!was_cut_) throw;
+    surfaces_.clear();
+    throw StepRefused(error.what());
+  }
+  was_cut_ = true;
 }
 
 void FieldCut::return_to(double time) {

@@ -42,6 +42,8 @@ class FieldCut {
   /// @return the body's number, as InterfaceRule::body has it
   int add_body(Body body);
 
+  /// In diameters of a cell, the thickness of a film between bodies that has closed.
+  static constexpr double closed_film = 1e-5;
   /// Parts that reach these boundaries are never dropped.
   void keep_at(std::vector<std::string> boundaries) { open_boundaries_ = std::move(boundaries); }
   /// The same of parts that this body's surface bounds, which lets through what they hold.
@@ -57,7 +59,8 @@ class FieldCut {
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
   /// the caller. Collective.
   /// @return false when nothing has changed since the last call
-  /// @throws StepRefused when a cell comes alive that no known state reaches
+  /// @throws Error when the bodies cannot be cut out at the start, StepRefused when they cannot later, or
+  /// when a cell comes alive that no known state reaches
   bool update(double time);
 
   [[nodiscard]] const CutMesh& mesh() const { return mesh_; }
@@ -78,6 +81,7 @@ class FieldCut {
   /// States are those of a step that ended at `time`: cuts at that time follow what had been decided by then,
   /// and the next step decides anew.
   void return_to(double time);
+  void cut(const std::vector<Surface>& surfaces);
   [[nodiscard]] Decision decision(int cell) const;
   [[nodiscard]] bool states_match() const;
   void uncover(const std::vector<char>& before);
@@ -104,6 +108,7 @@ class FieldCut {
   // In the field's store of states: with those of nodes, all that a cut depends on.
   StateArray<char>& decision_;  ///< Decision of each cell
   StateArray<char>& held_;      ///< cells, see hold()
+  bool was_cut_ = false;        ///< ever
   bool decided_ = false;        ///< in this step
   bool is_first_cut_ = false;   ///< the present cut is the one that decided
   bool is_filling_ = false;     ///< cells of kept parts wait for a state

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "seam/cut/facets.hpp"
+#include "seam/cut/border.hpp"
 
 namespace seam::cutting {
 
@@ -9,6 +9,8 @@ namespace seam::cutting {
 /// have a body on one side only. Facets are split where they meet, at points of the
 /// lattice, and each kind of part is tested exactly once. A point is covered when the winding number of any
 /// body is positive there.
-void unite_in_plane(Facets& facets);
+/// @param border of the mesh: beyond it open surfaces end, so that nothing follows from there for what is
+/// inside
+void unite_in_plane(Facets& facets, const Border& border);
 
 }  // namespace seam::cutting
