@@ -76,4 +76,19 @@ struct VelocityMismatch {
   }
 };
 
+/// The rate at which fluid, or body, passes out of the fluid: v . n or du/dt . n, m/s.
+template <class Speed>
+struct Outflow {
+  using Reads = Slots<Speed>;
+  static constexpr int values(int) { return 1; }
+
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    if constexpr (Speed::level == Level::rate)
+      *value = dot(s.rate(typename Speed::operand{}), x.normal);
+    else
+      *value = dot(s.value(typename Speed::operand{}), x.normal);
+  }
+};
+
 }  // namespace seam::fsci

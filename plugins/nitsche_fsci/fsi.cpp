@@ -83,7 +83,9 @@ class Fsi final : public Coupling {
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
-    return {FluidMesh<3>(sides, operands).measure("mismatch", VelocityMismatch{jumps()})};
+    const FluidMesh<3> mesh(sides, operands);
+    return {mesh.measure("mismatch", VelocityMismatch{jumps()}),
+            mesh.measure("body_outflow", Outflow<Rate<Displacement>>{}, MeasureOf::integral)};
   }
 
  private:
@@ -104,9 +106,11 @@ class Fsi final : public Coupling {
 void declare_fsi(Registry& registry) {
   registry.add<Coupling>("coupling", "fsi", Fsi::schema(),
                          [](const Parameters& p, const Registry&) { return std::make_unique<Fsi>(p); });
-  registry.publishes("coupling", "fsi",
-                     {{Published::As::series, "mismatch", "m/s m^((d-1)/2)",
-                       "L2 norm of the fluid's velocity less that of the body"}});
+  registry.publishes(
+      "coupling", "fsi",
+      {{Published::As::series, "mismatch", "m/s m^((d-1)/2)",
+        "L2 norm of the fluid's velocity less that of the body"},
+       {Published::As::series, "body_outflow", "m^d/s", "rate at which the surface itself moves out"}});
 }
 
 }  // namespace seam::fsci

@@ -56,13 +56,50 @@ output:
     foot: {field: block, on: y_min, quantity: reaction, component: y}
     push: {interface: face, quantity: force, component: y}
 )";
+/// The same block on a solid ground, under loads that grow for a while.
+std::string standing() {
+  std::string scene = block_scene;
+  const auto change = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = scene.find(from);
+    REQUIRE(at != std::string::npos);
+    scene.replace(at, from.size(), to);
+  };
+  change("end: 3,", "end: 3, grow: 1e-9,");
+  change("from: [0, 0], to: [1, 2.5]", "from: [0, -0.1], to: [1, 2.4]");
+  change("fields:\n",
+         "  ground: {grid: {from: [-0.1, -0.2], to: [1.1, 0], cells: [3, 1]}}\n"
+         "fields:\n"
+         "  ground:\n    type: solid\n    mesh: ground\n"
+         "    material: {type: neo_hookean, young: 100, poisson: 0}\n"
+         "    boundary: [{on: [x_min, x_max, y_min, y_max], displacement: [0, 0]}]\n");
+  change("[x_min, x_max, y_min], velocity", "[x_min, x_max], velocity");
+  change("traction: [0, -p0]", "traction: [0, \"-p0*min(t/grow, 1)\"]");
+  change("      - {on: y_min, displacement: [null, 0], velocity: [null, 0]}\n", "");
+  change("traction: [0, -q]", "traction: [0, \"-q*min(t/grow, 1)\"]");
+  change(
+      "{type: embedded, field: water, body: block, boundaries: [x_max, y_max]}\n",
+      "{type: embedded_contact, field: water, body: block, to: ground, boundaries: [y_min, x_max, y_max]}\n"
+      "  floor: {type: embedded_contact, field: water, body: ground, to: block}\n");
+  change("  - {type: fpi, on: face}\n",
+         "  - {type: porous_contact_in_fluid, on: face}\n"
+         "  - {type: contact_in_fluid, on: floor, stress: other}\n");
+  change(
+      "    foot: {field: block, on: y_min, quantity: reaction, component: y}\n"
+      "    push: {interface: face, quantity: force, component: y}\n",
+      "  formulas: {foot: face_contact_force_y}\n");
+  return scene;
+}
+
+const std::string at_rest =
+    " --set fields.water.initial.pressure=3 --set fields.block.initial.pressure=3 "
+    "--set 'fields.block.initial.displacement=[\"0.0008518097369087929*x\", \"-0.018948380425042544*y\"]'";
 constexpr double rest_x = 0.0008518097369087929, rest_y = -0.018948380425042544;
 
 }  // namespace
 
 TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and what the fluid exerts",
           "[sanitized]") {
-  SECTION("as its homogeneous state tells") {
+  SECTION("as its homogeneous state tells, held or standing on the ground") {
     const auto check_rest = [](const Run& run, double bound) {
       INFO(run.done.output);
       REQUIRE(run.done.code == 0);
@@ -77,13 +114,10 @@ TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and
     };
     for (const std::string momentum : {"total", "printed"}) {
       const std::string options = "--set fields.block.momentum=" + momentum;
-      check_rest(Run(block_scene,
-                     options + " --set fields.water.initial.pressure=3 --set fields.block.initial.pressure=3 "
-                               "--set 'fields.block.initial.displacement=[\"0.0008518097369087929*x\", "
-                               "\"-0.018948380425042544*y\"]'"),
-                 1e-12);
+      check_rest(Run(block_scene, options + at_rest), 1e-12);
       // From no load at all, in steps that are long beside what pores take to drain.
       check_rest(Run(block_scene, options + " --set parameters.end=6e4 --set parameters.step=2e3"), 1e-9);
+      check_rest(Run(standing(), options + at_rest), 1e-12);
     }
   }
   SECTION("at every permeability, from the first step on") {
@@ -99,5 +133,13 @@ TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and
       REQUIRE(foot.size() == 4);
       for (std::size_t k = 1; k < foot.size(); ++k) CHECK(std::abs(foot[k] + push[k] - 0.25) < 1e-8 * 0.25);
     }
+    const Run run(standing(),
+                  "--set parameters.end=0.03 --set parameters.step=0.01 --set parameters.tolerance=1e-11 "
+                  "--set parameters.grow=1 --set parameters.permeability=1e-2");
+    INFO(run.done.output);
+    REQUIRE(run.done.code == 0);
+    const std::vector<double> force = run.series("face.force.y"), time = run.series("time");
+    for (std::size_t k = 1; k < time.size(); ++k)
+      CHECK(std::abs(force[k] - 0.25 * time[k]) < 1e-8 * 0.25 * time[k]);
   }
 }

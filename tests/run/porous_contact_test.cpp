@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A porous column that presses a film of fluid through its pores, and stands on the wall in the end.
+// Porous bodies that press fluid out through their pores, and stand on the ground in the end.
 #include <algorithm>
 #include <cmath>
 
@@ -60,5 +60,65 @@ TEST_CASE("a porous column closes a film of fluid that can only drain through it
         seam("run " SEAM_SOURCE_DIR "/configs/poro/falling_column.yaml --set coupling.1.stress=own");
     CHECK(stress.code != 0);
     CHECK_THAT(stress.output, Catch::Contains("write `stress: other`"));
+  }
+}
+
+TEST_CASE("a porous stamp closes over a pool that drains, rests, and is lifted by the fluid's pressure",
+          "[study]") {
+  const std::string coarse =
+      "--set checks=[] --set parameters.n=12 --set parameters.fine=0.5 --set parameters.start=100 --set "
+      "parameters.rise=150 --set output.fields=false --set parameters.end=";
+  const ShippedRun run("contact/porous_stamp", coarse + "300");
+  const std::vector<double> time = run.series("time"), first = run.series("gap_1"),
+                            last = run.series("gap_0"), contact = run.series("by_contact"),
+                            unbalanced = run.series("unbalanced"), missing = run.series("missing"),
+                            pores = run.series("mean_pores");
+  const auto below = [&](const std::vector<double>& gap) {
+    return time[std::ranges::find_if(gap, [](double g) { return g < 1e-3; }) - gap.begin()];
+  };
+  const auto row = [&](double wanted) { return std::ranges::lower_bound(time, wanted) - time.begin(); };
+  CHECK(below(first) == Approx(43).margin(3));
+  CHECK(below(last) > below(first) + 4);
+  CHECK(contact[row(100)] > 0.95 * 1.5);
+  CHECK(pores[row(100)] < 0.1 * pores[row(30)]);
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    CAPTURE(time[k]);
+    CHECK(std::abs(missing[k]) * (time[k] - time[k - 1]) < 1e-10);
+    CHECK(unbalanced[k] < (time[k] > 1 ? 1e-4 : 0.2));
+    CHECK(first[k] > -1.25e-3);
+    CHECK(last[k] > -1.25e-3);
+  }
+  // Lifted soon after the fluid's pressure has come up to the load, at 250.
+  const auto released =
+      std::ranges::find_if(contact.rbegin(), contact.rend(), [](double f) { return f > 0; });
+  const double at = time[contact.rend() - released - 1];
+  CHECK(at > 250);
+  CHECK(at < 290);
+
+  SECTION("on any number of ranks, which may change while it touches") {
+    const Folder folder;
+    const std::string command = "run " SEAM_SOURCE_DIR
+                                "/configs/contact/porous_stamp.yaml --quiet --no-picture " +
+                                coarse + "300 --folder " + (folder.path / "out").string();
+    const auto on = [](const std::string& ranks) {
+      return "timeout 1000 mpirun --oversubscribe -np " + ranks + " ";
+    };
+    const Result three = seam(command + " --stop-at 46", on("3"));
+    INFO(three.output);
+    REQUIRE(three.code == 0);
+    const Result two = seam(command + " --resume --stop-at 50", on("2"));
+    INFO(two.output);
+    REQUIRE(two.code == 0);
+    const std::string csv = folder.read("out/series.csv");
+    for (const std::string name :
+         {"time", "gap_0", "gap_1", "gap_2", "by_contact", "by_fluid", "mean_pores"}) {
+      CAPTURE(name);
+      const std::vector<double> other = column(csv, name), one = run.series(name);
+      REQUIRE(other.size() > 100);
+      REQUIRE(other.size() <= one.size());
+      double most = 0;
+      for (const double x : one) most = std::max(most, std::abs(x));
+      for (std::size_t k = 0; k < other.size(); ++k) CHECK(std::abs(other[k] - one[k]) < 1e-6 * most);
+    }
   }
 }
