@@ -218,6 +218,17 @@ TEST_CASE("variants that must agree are compared, restarted ones too") {
              Contains("tip.x has 21 rows, 11 with 'ranks=1 restart=none time.step.initial=0.1'"));
 }
 
+TEST_CASE("a run that failed before its middle does not go on") {
+  const Folder folder;
+  (void)folder.file("scene.yaml", troubled("  vary: {restart: [1], functions.trouble.at: [0.45]}\n"));
+  CHECK(verify(folder).code == 1);
+  const nlohmann::json only = table(folder).at("variants").at(0);
+  CHECK(only.at("verdict") == "FAIL");
+  const std::filesystem::path log = only.at("log").get<std::string>();
+  CHECK(log.filename() == "log.txt");
+  CHECK(!exists(log.parent_path() / "log-resumed.txt"));
+}
+
 TEST_CASE("a run that no step ends in its middle is no restart") {
   const Folder folder;
   // The second step, of more than half of the time, comes to the end.
