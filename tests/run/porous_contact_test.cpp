@@ -122,3 +122,43 @@ TEST_CASE("a porous stamp closes over a pool that drains, rests, and is lifted b
     }
   }
 }
+
+TEST_CASE("without permeability a porous stamp falls as the elastic one that keeps its fluid", "[study]") {
+  const std::string coarse =
+      " --set checks=[] --set output.statistics={} --set output.fields=false --set parameters.n=8 --set "
+      "parameters.fine=0.5 --set parameters.end=12 --set time.step.tolerance=0.05";
+  const auto solid = [&](const std::string& material) {
+    return ShippedRun(
+        "contact/porous_stamp",
+        coarse +
+            " --set 'plugins=[cutfem_fluid, solid, undrained, nitsche_fsci]' --set "
+            "'plugin_folders=[" SEAM_TROUBLE_PLUGIN
+            "]' --set 'fields.stamp={type: solid, mesh: stamp, order: 2, "
+            "density: 1e-3, material: " +
+            material +
+            ", boundary: [{on: middle, displacement: [0, null]}, {on: top, traction: [0, -2]}]}' --set "
+            "meshes.stamp.numbers.order=2 --set 'meshes.stamp.numbers.fine=\"0.5*fine\"' --set "
+            "'coupling.0={type: contact_in_fluid, on: foot, stress: own, near_slip: {factor: 0.1, reach: "
+            "1/n}}' "
+            "--set 'output.probes={p0: {field: stamp, at: [0, 0.5], quantity: displacement, component: y}, "
+            "p1: "
+            "{field: stamp, at: [\"-sin(0.3*arc)\", \"1.5 - cos(0.3*arc)\"], quantity: displacement, "
+            "component: "
+            "y}}' --set 'output.formulas={gap_0: 0.5 + p0, gap_1: 1.5 - cos(0.3*arc) + p1}'");
+  };
+  const ShippedRun porous("contact/porous_stamp",
+                          coarse + " --set parameters.permeability=1e-8 --set coupling.0.alpha=.inf");
+  const ShippedRun undrained = solid("{type: undrained, young: 50, bulk: 100, porosity: 0.5}"),
+                   drained = solid("{type: neo_hookean, young: 50, poisson: 0}");
+  const auto at = [](const ShippedRun& run, const std::string& name, double t) {
+    const std::vector<double> time = run.series("time"), value = run.series(name);
+    const auto k = std::ranges::lower_bound(time, t) - time.begin();
+    return value[k - 1] + (value[k] - value[k - 1]) * (t - time[k - 1]) / (time[k] - time[k - 1]);
+  };
+  for (const std::string gap : {"gap_0", "gap_1"})
+    for (const double t : {1.0, 5.0, 10.0}) {
+      CAPTURE(gap, t);
+      CHECK(at(porous, gap, t) == Approx(at(undrained, gap, t)).epsilon(0.04));
+    }
+  CHECK(at(drained, "gap_0", 10) > 1.15 * at(undrained, "gap_0", 10));
+}
