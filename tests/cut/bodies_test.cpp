@@ -153,23 +153,37 @@ TEST_CASE("What an open surface leaves open behind the border says nothing of it
           "[cut][bodies]") {
   const Mesh mesh = grid(CellType::quadrilateral, {8, 6, 0}, unmoved());
   CutMesh cut(mesh);
-  for (const double beyond : {0.0, 1e-12, 1e-3, 0.2})
-    for (const double ground : {1e-12, 1e-3, 0.1, 0.3})
-      for (const double depth : {-0.05, 0.0, 1e-9, 0.05})
-        for (int start = 0; start < 4; ++start) {
-          INFO(beyond << ", " << ground << ", " << depth << ", " << start);
-          // A body from x = 0.3 on, above 0.1 - depth, and one below 0.1, whose outline begins at any corner.
-          const Surface foot = open_line({{.3, 1.2, 0}, {.3, .1 - depth, 0}, {1 + beyond, .1 - depth, 0}});
-          std::vector<Point> corners{{-.1, -.1, 0}, {1 + ground, -.1, 0}, {1 + ground, .1, 0}, {-.1, .1, 0}};
-          std::rotate(corners.begin(), corners.begin() + start, corners.end());
-          const double film = .7 * std::max(0.0, -depth);
-          for (const auto& bodies :
-               {std::vector{foot, polygon(corners)}, std::vector{polygon(corners), foot}}) {
-            cut.cut(bodies);
-            check_closure(cut);
-            CHECK(total_fluid(cut) == Approx(.3 * .9 + film).epsilon(0).margin(1e-9));
+  for (const bool mirrored : {false, true})
+    for (const double beyond : {0.0, 1e-12, 1e-3, 0.2})
+      for (const double ground : {0.0, 1e-12, 1e-3, 0.1, 0.3})
+        for (const auto& [depth, tilt] :
+             {std::pair(-0.05, 0.0), {0.0, 0.0}, {1e-9, 0.0}, {0.05, 0.0}, {-0.001, 0.05}, {0.001, 0.05}})
+          for (int start = 0; start < 4; ++start) {
+            INFO(mirrored << ", " << beyond << ", " << ground << ", " << depth << ", " << tilt << ", "
+                          << start);
+            const auto placed = [&](std::vector<Point> points) {
+              if (!mirrored) return points;
+              for (Point& x : points) x[0] = 1 - x[0];
+              std::reverse(points.begin(), points.end());
+              return points;
+            };
+            // A body from x = 0.3 on, above 0.1 - depth, and one below 0.1, whose outline begins at any
+            // corner.
+            const Surface foot =
+                open_line(placed({{.3, 1.2, 0}, {.3, .1 - depth + tilt, 0}, {1 + beyond, .1 - depth, 0}}));
+            std::vector<Point> corners{
+                {-.1, -.1, 0}, {1 + ground, -.1, 0}, {1 + ground, .1, 0}, {-.1, .1, 0}};
+            std::rotate(corners.begin(), corners.begin() + start, corners.end());
+            const Surface block = polygon(placed(corners));
+            const double left = tilt - depth, right = tilt * beyond / (.7 + beyond) - depth;
+            const double film =
+                left <= 0 ? 0 : .35 * (right >= 0 ? left + right : left * left / (left - right));
+            for (const auto& bodies : {std::vector{foot, block}, std::vector{block, foot}}) {
+              cut.cut(bodies);
+              check_closure(cut);
+              CHECK(total_fluid(cut) == Approx(.3 * .9 + film).epsilon(0).margin(1e-9));
+            }
           }
-        }
 }
 
 TEST_CASE("An open surface that ends on the border cuts in any unit, turned, and of short facets",

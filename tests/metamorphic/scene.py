@@ -50,7 +50,8 @@ REFERENCES = {
     "scene.output.probes.field": "fields", "scene.output.probes.interface": "interfaces",
 }
 REFERENCES |= {f"coupling.{name}.on": "interfaces" for name in
-               ("fluid_wall", "fluid_traction", "fluid_patch", "fsi", "fpi", "bonded", "contact", "contact_in_fluid")}
+               ("fluid_wall", "fluid_traction", "fluid_patch", "fsi", "fpi", "bonded", "contact", "contact_in_fluid",
+                "porous_contact_in_fluid")}
 
 # Lists whose order means nothing.
 UNORDERED = {"scene.plugins", "scene.coupling", "field.solid.boundary", "field.cutfem_fluid.boundary",

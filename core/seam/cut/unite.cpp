@@ -96,7 +96,7 @@ class Union {
   std::vector<Group> groups_;
   std::vector<std::vector<int>> groups_at_;  ///< [vertex]
   std::vector<char> visited_;                ///< [group]
-  std::vector<char> is_end_;                 ///< [vertex]: of a surface, or of the mesh
+  std::vector<char> is_rim_, at_border_;     ///< [vertex]: where an open surface ends; of the mesh
 };
 
 void Union::arrange(const std::vector<Segment>& segments) {
@@ -125,12 +125,13 @@ void Union::arrange(const std::vector<Segment>& segments) {
 
 /// Rims of open surfaces, and where anything meets the border: behind it such a surface may end.
 void Union::find_ends(const std::vector<Segment>& segments, const std::map<LatticePoint, int>& number) {
-  is_end_.assign(arranged_.point.size(), 0);
+  is_rim_.assign(arranged_.point.size(), 0);
+  at_border_ = is_rim_;
   std::copy_if(segments.begin(), segments.end(), std::back_inserter(border_),
                [](const Segment& s) { return s.facet == of_border; });
   for (const Segment& s : border_)
     for (const LatticePoint& end : {s.a, s.b})
-      if (const auto found = number.find(end); found != number.end()) is_end_[found->second] = 1;
+      if (const auto found = number.find(end); found != number.end()) at_border_[found->second] = 1;
   std::map<std::array<int, 2>, int> ends;  // by vertex and body: those that end there less those that start
   for (const Facet& f : arranged_.list)
     if (!facets_.closed[f.body]) {
@@ -138,7 +139,7 @@ void Union::find_ends(const std::vector<Segment>& segments, const std::map<Latti
       ++ends[{f.vertex[1], f.body}];
     }
   for (const auto& [where, count] : ends)
-    if (count != 0) is_end_[where[0]] = 1;
+    if (count != 0) is_rim_[where[0]] = 1;
 }
 
 void Union::make_groups() {
@@ -156,26 +157,26 @@ void Union::make_groups() {
   visited_.assign(groups_.size(), 0);
 }
 
-/// Goes on where exactly two groups meet and no surface ends: there the sides stay what they are.
+/// Goes on where exactly two groups meet and no surface ends: there the sides stay what they are. Out of the
+/// mesh it goes by one group, which the border's own edges need; behind it a surface may end anywhere.
 void Union::extend(int vertex, bool ahead, std::vector<Walk>& chain) {
   int last = chain.front().group;
-  while (groups_at_[vertex].size() == 2 && is_end_[vertex] == 0) {
+  while (groups_at_[vertex].size() == 2 && is_rim_[vertex] == 0) {
     const auto& two = groups_at_[vertex];
     const int next = two[0] == last ? two[1] : two[0];
     if (visited_[next] != 0) return;
     visited_[next] = 1;
     const bool starts_here = groups_[next].vertex[0] == vertex;
     chain.push_back({next, starts_here == ahead});
+    if (at_border_[vertex] != 0 && !is_in_mesh(groups_[next])) return;
     vertex = groups_[next].vertex[starts_here ? 1 : 0];
     last = next;
   }
 }
 
-/// Outside of the mesh, where open surfaces end, each group stands for itself.
 std::vector<Walk> Union::chain_through(int group) {
   std::vector<Walk> chain{{group, true}};
   visited_[group] = 1;
-  if (!border_.empty() && !is_in_mesh(groups_[group])) return chain;
   extend(groups_[group].vertex[1], true, chain);
   extend(groups_[group].vertex[0], false, chain);
   return chain;
@@ -225,12 +226,13 @@ Union::Sides Union::sides(const Group& group) const {
 
 std::vector<int> Union::choose() {
   std::vector<int> kept;
-  for (int g = 0; g < static_cast<int>(groups_.size()); ++g) {
-    if (visited_[g] != 0) continue;
+  bool decided = false;
+  const auto keep = [&](int g, bool alone) {
     const Sides wet = sides(groups_[g]);
-    const std::vector<Walk> chain = chain_through(g);
-    arranged_.all_covered = !wet.left;
-    if (wet.left == wet.right) continue;
+    const std::vector<Walk> chain = alone ? std::vector<Walk>{{g, true}} : chain_through(g);
+    if (!alone || !decided) arranged_.all_covered = !wet.left;
+    decided = true;
+    if (wet.left == wet.right) return;
     for (const Walk& walk : chain) {
       // The body lies to the left of a facet.
       const int start = groups_[walk.group].vertex[walk.forward == wet.right ? 0 : 1];
@@ -239,7 +241,13 @@ std::vector<int> Union::choose() {
                                        [&](int s) { return arranged_.list[s].vertex[0] == start; });
       if (member != members.end()) kept.push_back(*member);
     }
-  }
+  };
+  const auto count = static_cast<int>(groups_.size());
+  for (int g = 0; g < count; ++g)
+    if (visited_[g] == 0 && (border_.empty() || is_in_mesh(groups_[g]))) keep(g, false);
+  // Outside of the mesh each stands for itself.
+  for (int g = 0; g < count; ++g)
+    if (visited_[g] == 0) keep(g, true);
   std::sort(kept.begin(), kept.end());
   return kept;
 }
