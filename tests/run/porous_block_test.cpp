@@ -142,4 +142,13 @@ TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and
     for (std::size_t k = 1; k < time.size(); ++k)
       CHECK(std::abs(force[k] - 0.25 * time[k]) < 1e-8 * 0.25 * time[k]);
   }
+  SECTION("on the ground, or next to it, its facets flush with those of the ground") {
+    for (const std::string gap : {"0", "1e-9", "1e-7"}) {
+      const Run run(standing(), "--set parameters.end=1 --set 'meshes.block.grid.from=[0, " + gap +
+                                    "]' --set 'meshes.block.grid.to=[0.25, \"1.85 + " + gap + "\"]'");
+      INFO(gap << run.done.output);
+      REQUIRE(run.done.code == 0);
+      CHECK(run.series("face.force.y").back() == Approx(0.25).epsilon(1e-8));
+    }
+  }
 }
