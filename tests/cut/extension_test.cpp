@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "cut/cut_test.hpp"
+#include "seam/base/diagnostics.hpp"
+#include "seam/cut/field_cut.hpp"
 
 using namespace seam;
 
@@ -87,4 +89,48 @@ TEST_CASE("what states are extended to does not depend on the unit of length", "
   REQUIRE(values[0].size() == values[1].size());
   for (std::size_t n = 0; n < values[0].size(); ++n)
     CHECK(values[1][n] == Approx(values[0][n]).epsilon(1e-9).margin(1e-9));
+}
+
+TEST_CASE("states reach along a film that opens, and never beyond what is around it", "[ranks]") {
+  const Mesh mesh = grid(CellType::quadrilateral, {20, 20, 0}, unmoved());
+  const auto box_of = [](double x0, double y0, double x1, double y1) {
+    return polygon({{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}});
+  };
+  double left = 0.22, right = 0.82, gap = 0;
+  Field field("water", mesh, {{"u", 1, 1, 1, ""}});
+  FieldCut cut(field);
+  cut.add_body([&](double) { return box_of(left, 0.2, right, 0.51); });
+  cut.add_body([&](double) { return box_of(left, 0.51 + gap, right, 0.8 + gap); });
+  Block& block = field.blocks()[0];
+  block.known.assign(block.known.size(), 1);
+  cut.update(0);
+  // It falls steeply towards the film from both of its ends.
+  for (int n = 0; n < block.space->nodes(); ++n)
+    block.now.value[n] = std::abs(block.space->position(n)[0] - 0.52);
+  const std::vector<char> known = block.known;
+  gap = 1e-4;
+  SECTION("between its ends") {
+    cut.update(0.1);
+    double least = 1, greatest = 0;
+    for (int n = 0; n < block.space->nodes(); ++n) {
+      if (known[n] || !block.active[n]) continue;
+      least = std::min(least, block.now.value[n]);
+      greatest = std::max(greatest, block.now.value[n]);
+    }
+    const Communicator all;
+    CHECK(all.min(least) > 0.2);
+    CHECK(all.max(greatest) < 0.35);
+  }
+  SECTION("but not where it is too thick") {
+    gap = 0.02;
+    CHECK_THROWS_AS(cut.update(0.1), StepRefused);
+  }
+  SECTION("and from nowhere to one that nothing known touches") {
+    left = -0.1;
+    right = 1.1;
+    gap = 0;
+    cut.update(0.1);
+    gap = 6e-3;  // large enough not to be dropped
+    CHECK_THROWS_AS(cut.update(0.2), StepRefused);
+  }
 }

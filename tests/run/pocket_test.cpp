@@ -97,6 +97,32 @@ coupling:
                              wall, outlet));
 }
 
+/// A lid lies on a block, or at a gap of it, and is lifted.
+std::string lid(const std::string& gap, const std::string& speed) {
+  return channel(fmt::format(R"yaml(
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: channel
+    density: 1
+    viscosity: 0.1
+    boundary:
+      - {{on: [x_min, y_min, x_max], velocity: [0, 0]}}
+      - {{on: y_max, outflow: symmetric}}
+interfaces:
+  block: {{type: cut, field: water, body: {{type: box, from: [0.22, 0.2], to: [0.82, 0.51]}}}}
+  lid:
+    type: cut
+    field: water
+    body: {{type: box, from: [0.22, "0.51 + {0}"], to: [0.82, "0.8 + {0}"]}}
+    motion: {{translation: [0, "{1}*t"]}}
+coupling:
+  - {{type: fluid_wall, on: block, velocity: [0, 0]}}
+  - {{type: fluid_wall, on: lid, velocity: [0, "{1}"]}}
+)yaml",
+                             gap, speed));
+}
+
 /// The volume dropped at each time, the same on all numbers of ranks.
 std::vector<double> dropped(const std::string& text) {
   const Folder folder;
@@ -136,6 +162,30 @@ TEST_CASE("a pocket of twenty cells is kept and solved for", "[study]") {
 TEST_CASE("a small part of the fluid is kept where it reaches an open boundary") {
   for (const double volume : dropped(corner("x_max"))) CHECK(volume == 0);
   for (const double volume : dropped(corner("x_min"))) CHECK(volume == Approx(0.05 * 0.05).epsilon(1e-10));
+}
+
+TEST_CASE("a film that opens over many cells at once goes on from what is around it") {
+  const Folder folder;
+  const auto series = [&](const std::string& where, const std::string& gap, const std::string& speed,
+                          const std::string& before = "") {
+    const auto run = seam("run " + folder.file("scene.yaml", lid(gap, speed)) +
+                              " --quiet --no-picture --folder " + (folder.path / where).string(),
+                          before);
+    CAPTURE(where, run.output);
+    REQUIRE(run.code == 0);
+    return folder.read(where + "/series.csv");
+  };
+  // Where the lid lies on the block at first, twelve cells come alive in a step. It is as if a film had been
+  // there from the start, but for that instant.
+  const std::string flush = series("flush", "0", "0.02"), apart = series("apart", "1e-9", "0.02");
+  const std::vector<double> force = column(flush, "force.y"), same = column(apart, "force.y");
+  REQUIRE(force.size() == 6);
+  for (std::size_t k = 1; k < force.size(); ++k) CHECK(force[k] == Approx(same[k]).epsilon(1e-5));
+  CHECK(force[1] < -20);
+  for (const std::string ranks : {"2", "3"})
+    CHECK(difference(flush, series(ranks, "0", "0.02", "mpirun --oversubscribe -np " + ranks)) < 1e-7);
+  // A film of a third of a cell is more than may be made up.
+  CHECK(column(series("fast", "0", "0.3"), "time").size() > 6);
 }
 
 TEST_CASE("a run that is resumed leaves out the pocket that it had left out", "[sanitized]") {

@@ -116,8 +116,10 @@ TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and
       const std::string options = "--set fields.block.momentum=" + momentum;
       check_rest(Run(block_scene, options + at_rest), 1e-12);
       // From no load at all, in steps that are long beside what pores take to drain.
-      check_rest(Run(block_scene, options + " --set parameters.end=6e4 --set parameters.step=2e3"), 1e-9);
+      const std::string march = " --set parameters.end=6e4 --set parameters.step=2e3";
+      check_rest(Run(block_scene, options + march), 1e-9);
       check_rest(Run(standing(), options + at_rest), 1e-12);
+      check_rest(Run(standing(), options + march + " --set parameters.grow=1e4"), 1e-9);
     }
   }
   SECTION("at every permeability, from the first step on") {
@@ -141,6 +143,21 @@ TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and
     const std::vector<double> force = run.series("face.force.y"), time = run.series("time");
     for (std::size_t k = 1; k < time.size(); ++k)
       CHECK(std::abs(force[k] - 0.25 * time[k]) < 1e-8 * 0.25 * time[k]);
+  }
+  SECTION("on the ground, too, which films of fluid part it from, under a load that comes at once") {
+    for (const std::string permeability : {"1e-2", "1e-6", "1e-8"}) {
+      INFO(permeability);
+      const Run run(standing(),
+                    "--set parameters.end=0.03 --set parameters.step=0.01 --set parameters.tolerance=1e-11 "
+                    "--set 'fields.water.boundary.1.traction=[0, -3]' "
+                    "--set 'fields.block.boundary.1.traction=[0, -1]' --set parameters.permeability=" +
+                        permeability);
+      INFO(run.done.output);
+      REQUIRE(run.done.code == 0);
+      const std::vector<double> force = run.series("face.force.y");
+      REQUIRE(force.size() == 4);
+      for (std::size_t k = 1; k < force.size(); ++k) CHECK(std::abs(force[k] - 0.25) < 1e-8 * 0.25);
+    }
   }
   SECTION("on the ground, or next to it, its facets flush with those of the ground") {
     for (const std::string gap : {"0", "1e-9", "1e-7"}) {

@@ -11,11 +11,17 @@
 #include "seam/assembly/domains.hpp"
 #include "seam/assembly/evaluator.hpp"
 #include "seam/base/diagnostics.hpp"
+#include "seam/cut/cut_mesh.hpp"
 #include "seam/state/state_store.hpp"
 #include "seam/term/kernel_term.hpp"
 
 namespace seam {
 namespace {
+
+/// In diameters of a cell: states reach along thinner films however many cells come alive there.
+constexpr double thin_film = 0.1;
+/// Smaller pivots are zeros.
+constexpr double rounding = 1e-14;
 
 /// Jumps of the normal derivatives of a scalar between the two cells of a face.
 struct DerivativeJumps {
@@ -74,6 +80,14 @@ struct Extension::System {
   std::vector<KnownPart> right_side;
   std::map<int, int> index;  ///< global node -> row
 
+  /// Of the matrix' entries on all ranks; 1 where there are none.
+  [[nodiscard]] double largest(const Communicator& communicator) const {
+    double value = 0;
+    for (const MatrixEntry& entry : matrix) value = std::max(value, std::abs(entry.value));
+    value = communicator.max(value);
+    return value > 0 ? value : 1;
+  }
+
   /// Everything that all ranks contribute, on every rank.
   void gather(const Communicator& communicator) {
     matrix = communicator.gather_all(matrix);
@@ -96,7 +110,9 @@ struct Extension::System {
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(rows, columns);
     for (const KnownPart& entry : right_side) right(index.at(entry.row), entry.column) += entry.value;
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(equations);
-    if (factor.info() != Eigen::Success || factor.vectorD().minCoeff() <= 0) return {};
+    if (factor.info() != Eigen::Success ||
+        factor.vectorD().minCoeff() <= rounding * factor.vectorD().maxCoeff())
+      return {};
     return factor.solve(right);
   }
 };
@@ -109,14 +125,26 @@ void Extension::extend() {
     if (!field_->blocks()[b].given) extend_block(b);
 }
 
-void Extension::check_reach(int number) const {
+bool Extension::is_film(int cell) const {
+  const CutMesh* cut = field_->cut();
+  if (cut == nullptr || cut->state(cell) != CellState::cut) return false;
+  const double thickness = 2 * cut->wet_volume(cell) / cut->interface_area(cell);
+  return thickness < thin_film * field_->mesh().diameter(cell);
+}
+
+std::vector<std::pair<int, int>> Extension::films(int number) const {
   const Block& block = field_->blocks()[number];
   const Mesh& mesh = field_->mesh();
   int lost = -1;
+  std::vector<std::pair<int, int>> films;
   for (int c = 0; c < mesh.owned_cells(); ++c) {
     if (!field_->active_cells()[c]) continue;
     for (int p = 0; p < field_->parts(c); ++p) {
-      if (!block.knows_any(field_->cell_nodes(number, c, p))) lost = mesh.global_cell(c);
+      if (block.knows_any(field_->cell_nodes(number, c, p))) continue;
+      if (is_film(c))
+        films.emplace_back(c, p);
+      else
+        lost = mesh.global_cell(c);
     }
   }
   lost = mesh.communicator().max(lost);
@@ -126,6 +154,7 @@ void Extension::check_reach(int number) const {
         "the step, or fluid begins where none was near, as between a boundary and a body that leaves "
         "it: let it begin with a gap there",
         field_->name(), lost));
+  return films;
 }
 
 Field& Extension::carrier(int order) {
@@ -171,28 +200,25 @@ void Extension::add(const Block& block, int row, int column, double value, Syste
                                    -value * (*n.values)[static_cast<std::size_t>(column) * n.size + c]});
 }
 
-/// Where a pocket opens that hangs on to the rest by a node or two, jumps do not say what its other nodes
-/// are: there they become like those of their cells.
-void Extension::add_means(int number, System& system) {
+std::vector<std::pair<int, int>> Extension::active_parts() const {
+  std::vector<std::pair<int, int>> all;
+  for (int c = 0; c < field_->mesh().owned_cells(); ++c)
+    for (int p = 0; p < field_->parts(c) && field_->active_cells()[c] != 0; ++p) all.emplace_back(c, p);
+  return all;
+}
+
+void Extension::add_means(int number, const std::vector<std::pair<int, int>>& parts, double weight,
+                          System& system) {
   const Block& block = field_->blocks()[number];
-  const Mesh& mesh = field_->mesh();
   const int per_cell = block.space->nodes_per_cell();
-  double weight = 0;
-  for (const MatrixEntry& entry : system.matrix) weight = std::max(weight, std::abs(entry.value));
-  weight = mesh.communicator().max(weight);
-  // Small, so that it decides only what the jumps leave open.
-  weight = weight > 0 ? 1e-3 * weight : 1;
-  for (int c = 0; c < mesh.owned_cells(); ++c) {
-    if (!field_->active_cells()[c]) continue;
-    for (int p = 0; p < field_->parts(c); ++p) {
-      const int* nodes = field_->cell_nodes(number, c, p);
-      for (int a = 0; a < per_cell; ++a)
-        for (int b = 0; b < per_cell && !block.known[nodes[a]]; ++b) {
-          if (a == b) continue;
-          add(block, nodes[a], nodes[a], weight, system);
-          add(block, nodes[a], nodes[b], -weight, system);
-        }
-    }
+  for (const auto& [cell, part] : parts) {
+    const int* nodes = field_->cell_nodes(number, cell, part);
+    for (int a = 0; a < per_cell; ++a)
+      for (int b = 0; b < per_cell && !block.known[nodes[a]]; ++b) {
+        if (a == b) continue;
+        add(block, nodes[a], nodes[a], weight, system);
+        add(block, nodes[a], nodes[b], -weight, system);
+      }
   }
 }
 
@@ -203,7 +229,7 @@ void Extension::extend_block(int number) {
   bool any_new = false;
   for (int n = 0; n < space.owned_nodes(); ++n) any_new = any_new || (block.active[n] && !block.known[n]);
   if (communicator.any(any_new)) {
-    check_reach(number);
+    const std::vector<std::pair<int, int>> unreached = films(number);
     Field& scalar = carrier(space.order());
     scalar.set_layout(field_->layout());
     scalar.occupy(field_->active_cells(), field_->cut());
@@ -212,7 +238,12 @@ void Extension::extend_block(int number) {
       System system;
       system.numbers = numbers_on(*field_, space);
       assemble(block, scalar, system);
-      if (with_means) add_means(number, system);
+      const double weight = system.largest(communicator);
+      add_means(number, unreached, weight, system);
+      // Where a pocket opens that hangs on to the rest by a node or two, jumps do not say what its other
+      // nodes are: there they become like those of their cells. Small, so that it decides only what the jumps
+      // leave open.
+      if (with_means) add_means(number, active_parts(), 1e-3 * weight, system);
       system.gather(communicator);
       if (set_states(block, system)) break;
       if (with_means)
@@ -228,7 +259,7 @@ bool Extension::set_states(const Block& block, const System& system) {
   const Space& space = *block.space;
   const Eigen::MatrixXd values = system.solve();
   bool complete = values.rows() > 0;
-  for (int n = 0; n < space.owned_nodes(); ++n) {
+  for (int n = 0; n < space.owned_nodes() && complete; ++n) {
     if (!block.active[n] || block.known[n]) continue;
     const auto found = system.index.find(space.global_node(n));
     complete = found != system.index.end();

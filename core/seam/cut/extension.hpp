@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "seam/field/field.hpp"
@@ -10,7 +11,9 @@ namespace seam {
 
 /// Extends the states of a field smoothly to nodes that have just come alive: of all extensions, the one with
 /// the smallest jumps of normal derivatives across the faces around the new nodes. First derivatives weigh 1,
-/// second ones h^2 (thesis (3.10), (3.11)).
+/// second ones h^2 (thesis (3.10), (3.11)). A thin film that opens between bodies, or between a body and the
+/// border, may come alive over many cells at once: in those that no known node reaches, values are like those
+/// of their neighbours. What a film was before matters little beside what closes or opens it.
 class Extension {
  public:
   explicit Extension(Field& field);
@@ -18,16 +21,21 @@ class Extension {
 
   /// Gives values to all nodes that are active and not known, in the present and the old states alike; then
   /// exactly the active nodes are known. Collective.
-  /// @throws StepRefused when an active cell consists of new nodes only: the body uncovered more than a layer
-  /// of cells
+  /// @throws StepRefused when an active cell consists of new nodes only and is no thin film: the body
+  /// uncovered more than a layer of cells
   void extend();
 
  private:
   struct System;
-  void check_reach(int block) const;
+  /// (cell, part) of owned cells that consist of new nodes only.
+  /// @throws StepRefused unless they are thin films
+  [[nodiscard]] std::vector<std::pair<int, int>> films(int block) const;
+  [[nodiscard]] bool is_film(int cell) const;
+  [[nodiscard]] std::vector<std::pair<int, int>> active_parts() const;
   static void assemble(const Block& block, Field& carrier, System& system);
   static void add(const Block& block, int row, int column, double value, System& system);
-  void add_means(int block, System& system);
+  /// Makes new nodes of these parts of cells like the others there.
+  void add_means(int block, const std::vector<std::pair<int, int>>& parts, double weight, System& system);
   /// @return false when the system does not determine all new nodes
   static bool set_states(const Block& block, const System& system);
   [[nodiscard]] Field& carrier(int order);
