@@ -53,18 +53,20 @@ struct BodyPull {
     const double omega = weight(x);
     return penalty * (omega * x.constant[0] + (1 - omega) * x.constant[1]);
   }
-  /// @param other_pressure in the pores of the other body, where it has some
+  /// @param own_pressure in the pores of the body, where it has some; then `own` is the law "mixture"
+  /// @param other_pressure the same of the other body
   template <int dim, class T, class G>
   [[nodiscard]] T operator()(const Point<dim, G>& x, const Vec<dim, G>& normal,
                              const Mat<dim, dim, T>& own_gradient, const Mat<dim, dim, T>& other_gradient,
-                             const T* other_pressure = nullptr) const {
+                             const T* own_pressure = nullptr, const T* other_pressure = nullptr) const {
+    const auto stress_of = [&](const Law& law, const Mat<dim, dim, T>& gradient, const T* pressure) {
+      return pressure ? mixture_stress<dim, T>(law, gradient, *pressure, normal)
+                      : normal_stress<dim, T>(law, gradient, normal);
+    };
     const double omega = weight(x);
     T pull = T(stiffness(x) * x.gap);
-    if (omega > 0 && own) pull += omega * normal_stress<dim, T>(*own, own_gradient, normal);
-    if (omega < 1 && other)
-      pull += (1 - omega) * (other_pressure
-                                 ? mixture_stress<dim, T>(*other, other_gradient, *other_pressure, normal)
-                                 : normal_stress<dim, T>(*other, other_gradient, normal));
+    if (omega > 0 && own) pull += omega * stress_of(*own, own_gradient, own_pressure);
+    if (omega < 1 && other) pull += (1 - omega) * stress_of(*other, other_gradient, other_pressure);
     return pull;
   }
 };

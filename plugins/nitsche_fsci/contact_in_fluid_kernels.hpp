@@ -55,7 +55,7 @@ struct BodyPulls {
     const Mat<dim, dim, T> own = s.gradient(Displacement{}), other = s.gradient(OppositeDisplacement{});
     if constexpr (porous) {
       const T pressure = s.value(OppositePressure{});
-      return bodies.operator()<dim, T, G>(x, -x.normal, own, other, &pressure);
+      return bodies.operator()<dim, T, G>(x, -x.normal, own, other, nullptr, &pressure);
     } else {
       return bodies.operator()<dim, T, G>(x, -x.normal, own, other);
     }

@@ -18,19 +18,20 @@ using SideTerm = Coupling::SideTerm;
 const std::vector<Operand> free_operands{
     {0, "velocity"}, {0, "pressure"}, {1, "displacement"}, {1, "velocity"}, {1, "pressure"}};
 
-std::vector<Operand> with_displacement_of(int side) {
-  std::vector<Operand> result = free_operands;
-  result.push_back({side, "displacement"});
+/// What the terms of a part that faces another body stand for: up to what they speak of.
+/// @param edge the side of operand 6, of closed parts; else that of the body itself
+std::vector<Operand> facing(std::vector<Operand> result, bool porous, int edge = 1) {
+  result.push_back({2, "displacement"});
+  if (porous || edge != 1) result.push_back({edge, "displacement"});
+  if (porous) result.push_back({2, "pressure"});
   return result;
 }
 
-const std::vector<Operand> near_operands = with_displacement_of(2);
-const std::vector<Operand> closed_operands = with_displacement_of(3);
 /// The fluid is not met there.
 const std::vector<Operand> covered_operands{
     {1, "velocity"}, {1, "pressure"}, {1, "displacement"}, {1, "velocity"}, {1, "pressure"}};
 
-/// A porous body in a fluid that may touch another one which lets nothing through.
+/// A porous body in a fluid that may touch another one.
 class PorousContact final : public Coupling {
  public:
   explicit PorousContact(const Parameters& parameters) : parameters_(parameters) {}
@@ -38,9 +39,9 @@ class PorousContact final : public Coupling {
   static Schema schema() {
     Schema s(
         "A fluid and a porous body that it flows along, into and out of, and that body's contact without "
-        "friction with one that lets nothing through. Where the body's surface is not in the fluid's mesh, "
-        "it "
-        "is tight.");
+        "friction with another one, which lets nothing through or is porous, too: then each of both looks at "
+        "the other by a coupling of this type, and what leaves the pores of one enters those of the other. "
+        "Where the body's surface is not in the fluid's mesh, it is tight.");
     s.reference("on", "Interface of type embedded_contact: the surface of the porous body", "interface")
         .of_types({"embedded_contact"});
     s.number("alpha",
@@ -63,6 +64,11 @@ class PorousContact final : public Coupling {
         .above(0)
         .optional();
     s.object("near_slip", "Additional slip near the other surface", slip).otherwise("{}");
+    s.choice("stress",
+             "Against a porous body: whose stress stands for that between the bodies, that of `both`, "
+             "weighted, or of one. Against another one it is the porous one's own",
+             {"both", "own", "other"})
+        .otherwise("both");
     Schema seal("How the pores close where the bodies touch.");
     seal.choice("by",
                 "`resistance` of a layer that thickens as the gap closes: what pores lose the fluid gets; "
@@ -78,7 +84,11 @@ class PorousContact final : public Coupling {
         .unit("m")
         .otherwise("0")
         .at_least(0);
-    s.object("seal", "How the pores close where the bodies touch", seal).otherwise("{}");
+    s.object("seal",
+             "How the pores close where the bodies touch; between porous ones they stay open, and only `dry` "
+             "counts",
+             seal)
+        .otherwise("{}");
     s.choice("extension",
              "What the fluid's traction is where the bodies are closed: `constant`, that of the nearest wet "
              "point, "
@@ -101,30 +111,50 @@ class PorousContact final : public Coupling {
   [[nodiscard]] std::vector<Brought> brings() const override { return {{1, "seepage"}}; }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    const std::vector<SideConstant> scale = scales(sides);
-    return {{make_term(film<false>(sides), 1), free_operands, {}, "free"},
-            {make_term(film<true>(sides), 1), near_operands, scale, "near"},
-            {make_term(closed(sides), 1), closed_operands, scale, "closed"},
-            {make_term(PorousShut{body(sides), fades()}, 1), covered_operands, scale, "shut"},
-            {make_term(PorousCovered{body(sides)}, 1), covered_operands, {}, "covered"}};
+    std::vector<SideTerm> result{{make_term(film<Facing::nothing>(sides), 1), free_operands, {}, "free"},
+                                 {make_term(PorousCovered{body(sides)}, 1), covered_operands, {}, "covered"}};
+    for (SideTerm& term :
+         is_porous(sides, 2) ? contact<Facing::porous>(sides) : contact<Facing::tight>(sides))
+      result.push_back(std::move(term));
+    return result;
+  }
+
+  void check_beside(const std::vector<Neighbour>& all, std::size_t self) const override {
+    check_looks(all, self);
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
+    return is_porous(sides, 2) ? measures_of<Facing::porous>(sides) : measures_of<Facing::tight>(sides);
+  }
+
+ private:
+  template <Facing facing>
+  [[nodiscard]] std::vector<SideTerm> contact(const CouplingSides& sides) const {
+    const Places at = places(sides);
     const std::vector<SideConstant> scale = scales(sides);
-    const PorousFilm<false> open = film<false>(sides);
-    const PorousFilm<true> near = film<true>(sides);
-    const PorousClosed dry = closed(sides);
-    const PorousShut shut{body(sides), fades()};
+    return {{make_term(film<facing>(sides), 1), at.near, scale, "near"},
+            {make_term(closed<facing>(sides), 1), at.closed, scale, "closed"},
+            {make_term(PorousShut<facing>{body(sides), fades()}, 1), at.shut, scale, "shut"}};
+  }
+
+  template <Facing facing>
+  [[nodiscard]] std::vector<Measure> measures_of(const CouplingSides& sides) const {
+    const Places at = places(sides);
+    const std::vector<SideConstant> scale = scales(sides);
+    const PorousFilm<Facing::nothing> open = film<Facing::nothing>(sides);
+    const PorousFilm<facing> near = film<facing>(sides);
+    const PorousClosed<facing> dry = closed<facing>(sides);
+    const PorousShut<facing> shut{body(sides), fades()};
     const auto wet = [&](FilmNumber number, int component = 0) {
       return std::vector<SideTerm>{
-          {make_quantity(FilmMeasure<false>{open, number, component}), free_operands, {}, "free"},
-          {make_quantity(FilmMeasure<true>{near, number, component}), near_operands, scale, "near"}};
+          {make_quantity(FilmMeasure<Facing::nothing>{open, number, component}), free_operands, {}, "free"},
+          {make_quantity(FilmMeasure<facing>{near, number, component}), at.near, scale, "near"}};
     };
     const auto touching = [&](TouchNumber number, int component = 0) {
       return std::vector<SideTerm>{
-          {make_quantity(NearTouch{near, number, component}), near_operands, scale, "near"},
-          {make_quantity(DryTouch<PorousClosed>{dry, number, component}), closed_operands, scale, "closed"},
-          {make_quantity(DryTouch<PorousShut>{shut, number, component}), covered_operands, scale, "shut"}};
+          {make_quantity(NearTouch<facing>{near, number, component}), at.near, scale, "near"},
+          {make_quantity(DryTouch<PorousClosed<facing>>{dry, number, component}), at.closed, scale, "closed"},
+          {make_quantity(DryTouch<PorousShut<facing>>{shut, number, component}), at.shut, scale, "shut"}};
     };
     std::vector<Measure> result{{"mismatch_across", wet(FilmNumber::across)},
                                 {"mismatch_along", wet(FilmNumber::along)},
@@ -134,19 +164,34 @@ class PorousContact final : public Coupling {
                                 {"gap", touching(TouchNumber::gap), MeasureOf::least},
                                 {"contact_area", touching(TouchNumber::touches), MeasureOf::integral},
                                 {"contact_pressure", touching(TouchNumber::pressure), MeasureOf::greatest}};
+    if constexpr (facing == Facing::porous)
+      result.push_back(
+          {"seepage_through",
+           {{make_quantity(FilmMeasure<facing>{near, FilmNumber::through}), at.near, scale, "near"},
+            {make_quantity(SeepageThrough<PorousClosed<facing>>{dry}), at.closed, scale, "closed"},
+            {make_quantity(SeepageThrough<PorousShut<facing>>{shut}), at.shut, scale, "shut"}},
+           MeasureOf::integral});
     constexpr const char* axis[] = {".x", ".y", ".z"};
     for (int c = 0; c < parameters_.dimension(); ++c) {
       result.push_back(
           {std::string("contact_force") + axis[c], touching(TouchNumber::traction, c), MeasureOf::integral});
       std::vector<SideTerm> all = wet(FilmNumber::traction, c);
-      all.push_back({make_quantity(TractionOf<PorousClosed>{dry, c}), closed_operands, scale, "closed"});
-      all.push_back({make_quantity(TractionOf<PorousShut>{shut, c}), covered_operands, scale, "shut"});
+      all.push_back({make_quantity(TractionOf<PorousClosed<facing>>{dry, c}), at.closed, scale, "closed"});
+      all.push_back({make_quantity(TractionOf<PorousShut<facing>>{shut, c}), at.shut, scale, "shut"});
       result.push_back({std::string("force") + axis[c], std::move(all), MeasureOf::integral});
     }
     return result;
   }
 
- private:
+  /// What the operands of the parts that face another body stand for.
+  struct Places {
+    std::vector<Operand> near, closed, shut;
+  };
+  [[nodiscard]] static Places places(const CouplingSides& sides) {
+    const bool porous = is_porous(sides, 2);
+    return {facing(free_operands, porous), facing(free_operands, porous, 3),
+            porous ? facing(covered_operands, true) : covered_operands};
+  }
   [[nodiscard]] Seal seal() const {
     const Parameters& seal = parameters_.object("seal");
     const std::string& by = seal.text("by");
@@ -162,30 +207,32 @@ class PorousContact final : public Coupling {
                       "its pores and the "
                       "stress of its mixture are (a porous_solid does)",
                       sides.fields[1]->name()));
-    if (is_porous(sides, 2))
-      throw Error(
-          fmt::format("`porous_contact_in_fluid` is for a porous body and one that lets nothing through; "
-                      "field '{}' is porous, too",
-                      sides.fields[2]->name()));
     return {{pores, {}, parameters_.text("slip_against") == "skeleton"},
-            mixture,
+            {mixture, sides.law(2, "mixture"), parameters_.object("penalty").number("contact"), whose(sides)},
             flow_of(sides).viscosity,
-            parameters_.object("penalty").number("contact"),
             seal()};
   }
-  template <bool is_near>
-  [[nodiscard]] PorousFilm<is_near> film(const CouplingSides& sides) const {
+  [[nodiscard]] Whose whose(const CouplingSides& sides) const {
+    const std::string& name = parameters_.text("stress");
+    if (!is_porous(sides, 2)) return Whose::own;
+    return name == "both" ? Whose::both : (name == "own" ? Whose::own : Whose::other);
+  }
+  template <Facing facing>
+  [[nodiscard]] PorousFilm<facing> film(const CouplingSides& sides) const {
     const Parameters& near = parameters_.object("near_slip");
     return {flow_of(sides), body(sides),
             Slip{0, near.number("factor"), near.has("reach") ? near.number("reach") : 0.0},
             parameters_.number("alpha"), ties_of(parameters_)};
   }
-  [[nodiscard]] PorousClosed closed(const CouplingSides& sides) const {
+  template <Facing facing>
+  [[nodiscard]] PorousClosed<facing> closed(const CouplingSides& sides) const {
     return {{flow_of(sides), parameters_.object("penalty").number("normal")}, body(sides), fades()};
   }
   [[nodiscard]] bool fades() const { return parameters_.text("extension") == "pore_pressure"; }
   [[nodiscard]] std::vector<SideConstant> scales(const CouplingSides& sides) const {
-    return {{1, std::make_shared<TraceEigenvalue>(sides.law(1, "skeleton"), scaling_of(parameters_))}};
+    std::vector<SideConstant> result{{1, scale_of(parameters_, sides, 1)}};
+    if (is_porous(sides, 2)) result.push_back({2, scale_of(parameters_, sides, 2)});
+    return result;
   }
   Parameters parameters_;
 };
@@ -205,6 +252,8 @@ void declare_porous_contact(Registry& registry) {
        {Published::As::series, "seepage", "m^d/s", "rate at which fluid enters or leaves the pores"},
        {Published::As::series, "dropped", "m^d/s",
         "rate at which `smoothing` or `switch` lose fluid between film and pores"},
+       {Published::As::series, "seepage_through", "m^d/s",
+        "between porous bodies: this look's half of what leaves the pores for those opposite"},
        {Published::As::series, "body_outflow", "m^d/s", "rate at which the wet surface itself moves out"},
        {Published::As::series, "gap", "m",
         "least gap; below 0 an overlap, infinite where nothing is opposite"},

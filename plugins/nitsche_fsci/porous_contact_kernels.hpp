@@ -4,20 +4,26 @@
 #include "contact_in_fluid_kernels.hpp"
 #include "fluid_porous.hpp"
 
-/// Fluid, porous body and its contact with an impermeable one by one formula, thesis chapter 7. With the
-/// body's outward normal n = -n_F, w = v_P - du/dt and the seepage q = phi w.n out of the body:
+/// Fluid, porous body and its contact with another one by one formula, thesis chapter 7. With the body's
+/// outward normal n = -n_F, w = v_P - du/dt and the seepage q = phi w.n out of the body:
 ///
 ///   the mixture gets   min(F, S) n,   S = n . sigma_P n + gamma_S g, sigma_P with the pore pressure,
 ///   the fluid          F n and its friction,   F = n . sigma_F n + gamma_F ((v - du/dt) . n - q^)
 ///   the pores          -p^ n,         and lose q^ to the fluid.
 ///
-/// q^ and p^ are what the seal between body and body leaves of seepage and of the fluid's pressure: `Seal`.
-/// Free points are those of `fpi`, the gap infinite; closed ones are sealed, F is that of the nearest wet
-/// point; covered ones, where nothing is known of what lies outside, are sealed and free of load.
+/// Against a body that lets nothing through, q^ and p^ are what the seal leaves of seepage and of the fluid's
+/// pressure: `Seal`. Against a porous one nothing is sealed: dry points have p^ = (p + p')/2 and q^ = (q -
+/// q')/2 in both bodies, each look integrates its own half (7.21), (7.23). Free points are those of `fpi`,
+/// the gap infinite; closed ones are dry, F is that of the nearest wet point; covered ones, where nothing is
+/// known of what lies outside, are sealed and free of load.
 namespace seam::fsci {
 
 using FacingDisplacement = Vector<5>;
-using TipDisplacement = Vector<5>;
+using TipDisplacement = Vector<6>;
+using FacingPressure = Scalar<7>;
+
+/// What a point of the surface faces.
+enum class Facing { nothing, tight, porous };
 
 /// How pores are sealed as a gap closes.
 struct Seal {
@@ -30,10 +36,21 @@ struct Seal {
   double width;  ///< m, of the gap in which alpha rises from 0 to 1; 0: a hundredth of the fluid's cell
   double dry;    ///< m: points whose gap at the start of a step was less are sealed
 
-  /// alpha: 0 open, 1 sealed. @param start the gap at the start of the step
+  /// Whether the film is none. @param start the gap at the start of the step
+  template <int dim, class G>
+  [[nodiscard]] bool is_dry(const Point<dim, G>& x, double start) const {
+    return start < dry || plain(x.gap) <= 0;
+  }
+  /// Whether pores that are not wet are open to pores opposite: not where they look at each other across what
+  /// the fluid's mesh ends before.
+  template <int dim, class G>
+  [[nodiscard]] bool meets(const Point<dim, G>& x) const {
+    return plain(x.gap) < std::max(dry, 0.01 * x.cell_size);
+  }
+  /// alpha: 0 open, 1 sealed.
   template <int dim, class T, class G>
   [[nodiscard]] T closed(const Point<dim, G>& x, double start) const {
-    if (start < dry || plain(x.gap) <= 0) return T(1.0);
+    if (is_dry(x, start)) return T(1.0);
     const double within = kind == Kind::sudden ? 0 : width > 0 ? width : 0.01 * x.cell_size;
     if (plain(x.gap) >= within) return T(0.0);
     return 1 - (1 / within) * T(x.gap);
@@ -45,8 +62,9 @@ template <class T>
 struct Exchange {
   T pull;           ///< F
   T into_fluid;     ///< q^ as the fluid's balance has it
-  T out_of_pores;   ///< q^ as the pores' has it
+  T out_of_pores;   ///< q^ as the pores' has it, against a porous body this look's half
   T pore_pressure;  ///< p^
+  T into_facing{};  ///< what pores opposite get of it
 };
 
 /// @param stress n . sigma_F n @param penalty gamma_F, Pa s/m @param speed (v - du/dt) . n
@@ -63,11 +81,18 @@ Exchange<T> exchange(const Seal& seal, const T& alpha, const T& stress, const T&
     const T leak = open / c;
     const T pull = (stress + penalty * (speed - open * seepage - leak * pressure)) / (1 + penalty * leak);
     const T through = open * seepage + leak * (pressure + pull);
-    return {pull, through, through, alpha * (pressure + c * seepage) - open * pull};
+    return {pull, through, through, alpha * (pressure + c * seepage) - open * pull, T(0.0)};
   }
   const T flow = seal.kind == Seal::Kind::sudden ? open * seepage : seepage;
   const T pull = stress + penalty * (speed - flow);
-  return {pull, flow, open * seepage, alpha * pressure - open * pull};
+  return {pull, flow, open * seepage, alpha * pressure - open * pull, T(0.0)};
+}
+
+/// The same at a dry point between pores, of which the fluid's film sees nothing.
+template <class T>
+Exchange<T> between_pores(const T& pull, const T& pressure, const T& facing_pressure, const T& seepage) {
+  const T half = 0.5 * seepage;
+  return {pull, T(0.0), half, 0.5 * (pressure + facing_pressure), half};
 }
 
 /// A porous body's own part of what its kernels read.
@@ -76,12 +101,11 @@ using PorousReads =
     Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>, OldValue<Displacement>,
           Rate<Displacement>, Gradient<Displacement>, Value<PoreVelocity>, Value<PorePressure>, More...>;
 
-/// The porous body at a point: its pores and its stress.
+/// The porous body at a point: its pores, and the stress between it and what it faces.
 struct PorousSide {
   PorousMismatch mismatch;
-  std::shared_ptr<const Law> mixture;
+  BodyPull bodies;
   double viscosity;  ///< Pa s
-  double penalty;    ///< gamma_0 of contact
   Seal seal;
 
   template <class T>
@@ -100,22 +124,53 @@ struct PorousSide {
     return (viscosity * x.cell_size) / state.permeability;
   }
   /// S
-  template <int dim, class T, class G, class S>
+  template <Facing facing, int dim, class T, class G, class S>
   [[nodiscard]] T pull(const Point<dim, G>& x, const S& s) const {
-    return mixture_stress<dim, T>(*mixture, s.gradient(Displacement{}), T(s.value(PorePressure{})),
-                                  x.normal) +
-           penalty * x.constant[0] * x.gap;
+    const T pressure = s.value(PorePressure{});
+    const Mat<dim, dim, T> own = s.gradient(Displacement{});
+    if constexpr (facing == Facing::porous) {
+      const T opposite = s.value(FacingPressure{});
+      return bodies.operator()<dim, T, G>(x, x.normal, own, s.gradient(FacingDisplacement{}), &pressure,
+                                          &opposite);
+    } else {
+      return bodies.operator()<dim, T, G>(x, x.normal, own, own, &pressure);
+    }
+  }
+  /// p, or its mean with that of pores opposite.
+  template <Facing facing, class T, class S>
+  [[nodiscard]] static T mean_pressure(const S& s) {
+    if constexpr (facing == Facing::porous)
+      return 0.5 * (s.value(PorePressure{}) + s.value(FacingPressure{}));
+    else
+      return s.value(PorePressure{});
   }
 };
 
-/// The wet surface of a porous body. @tparam is_near whether there is another surface at a gap
-template <bool is_near>
-struct PorousFilm {
-  using Reads =
-      std::conditional_t<is_near, PorousReads<Value<FacingDisplacement>, OldValue<FacingDisplacement>>,
-                         PorousReads<>>;
+template <Facing facing>
+struct FilmSlots {
+  using Reads = PorousReads<Value<FacingDisplacement>, OldValue<FacingDisplacement>>;
   using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>,
                       Value<PoreVelocity>, Value<PorePressure>>;
+};
+template <>
+struct FilmSlots<Facing::nothing> {
+  using Reads = PorousReads<>;
+  using Tests = FilmSlots<Facing::tight>::Tests;
+};
+template <>
+struct FilmSlots<Facing::porous> {
+  using Reads = PorousReads<Value<FacingDisplacement>, OldValue<FacingDisplacement>,
+                            Gradient<FacingDisplacement>, Value<FacingPressure>>;
+  using Tests = Slots<Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>,
+                      Value<PoreVelocity>, Value<PorePressure>, Value<FacingPressure>>;
+};
+
+/// The wet surface of a porous body.
+template <Facing facing>
+struct PorousFilm {
+  static constexpr bool is_near = facing != Facing::nothing;
+  using Reads = typename FilmSlots<facing>::Reads;
+  using Tests = typename FilmSlots<facing>::Tests;
   static constexpr int movers = is_near ? 2 : 1;
   Flow flow;
   PorousSide body;
@@ -132,8 +187,15 @@ struct PorousFilm {
     const T stress = dot(n, ((2 * flow.viscosity) * sym(s.gradient(Velocity{}))) * n) - s.value(Pressure{});
     const T penalty = (ties.normal_penalty / x.trace_size) * fsci::resistance<dim, T, G>(flow, x, velocity);
     const T speed = -1.0 * dot(velocity - s.rate(Displacement{}), n);
-    return exchange<T>(body.seal, body.seal.template closed<dim, T, G>(x, start<dim, T, G>(x, s)), stress,
-                       penalty, speed, state.pressure, state.seepage,
+    T sealed(0.0);
+    if constexpr (facing == Facing::porous) {
+      if (body.seal.is_dry(x, start<dim, T, G>(x, s)))
+        return between_pores<T>(T(stress + penalty * speed), state.pressure, s.value(FacingPressure{}),
+                                state.seepage);
+    } else {
+      sealed = body.seal.template closed<dim, T, G>(x, start<dim, T, G>(x, s));
+    }
+    return exchange<T>(body.seal, sealed, stress, penalty, speed, state.pressure, state.seepage,
                        body.template resistance<dim, T, G>(x, state));
   }
 
@@ -152,8 +214,9 @@ struct PorousFilm {
     r.value(Displacement{}) -= traction;
     r.value(PoreVelocity{}) -= passing.pore_pressure * n;
     r.value(PorePressure{}) += passing.out_of_pores;
+    if constexpr (facing == Facing::porous) r.value(FacingPressure{}) -= passing.into_facing;
     if constexpr (is_near) {
-      const T contact = body.template pull<dim, T, G>(x, s);
+      const T contact = body.template pull<facing, dim, T, G>(x, s);
       if (plain(contact) < plain(passing.pull)) r.value(Displacement{}) += (contact - passing.pull) * n;
     }
   }
@@ -164,9 +227,10 @@ struct PorousFilm {
     if constexpr (is_near) {
       double gap = plain(x.gap);
       const auto u = s.value(Displacement{}), u_old = s.old_value(Displacement{}),
-                 facing = s.value(FacingDisplacement{}), facing_old = s.old_value(FacingDisplacement{});
+                 opposite = s.value(FacingDisplacement{}), opposite_old = s.old_value(FacingDisplacement{});
       for (int i = 0; i < dim; ++i)
-        gap -= (plain(u[i]) - plain(u_old[i]) - plain(facing[i]) + plain(facing_old[i])) * plain(x.normal[i]);
+        gap -= (plain(u[i]) - plain(u_old[i]) - plain(opposite[i]) + plain(opposite_old[i])) *
+               plain(x.normal[i]);
       return gap;
     } else {
       return std::numeric_limits<double>::infinity();
@@ -195,18 +259,45 @@ void add_seal(const PorousSide& body, const Point<dim, G>& x, const S& s, R& r) 
   r.value(PoreVelocity{}) -= pressure * x.normal;
 }
 
-/// min(F, S) on the mixture, and pores that are sealed.
-template <int dim, class T, class G, class S, class R>
+/// min(F, S) on the mixture, and pores that are sealed, or open to those opposite.
+template <Facing facing, int dim, class T, class G, class S, class R>
 void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& pull, R& r) {
-  const T contact = body.template pull<dim, T, G>(x, s);
+  const T contact = body.template pull<facing, dim, T, G>(x, s);
   r.value(Displacement{}) += (plain(contact) < plain(pull) ? contact : pull) * x.normal;
+  if constexpr (facing == Facing::porous) {
+    if (body.seal.meets(x)) {
+      const auto state = body.template state<dim, T, G>(x, s);
+      const Exchange<T> passing =
+          between_pores<T>(pull, state.pressure, s.value(FacingPressure{}), state.seepage);
+      r.value(PoreVelocity{}) -= passing.pore_pressure * x.normal;
+      r.value(PorePressure{}) += passing.out_of_pores;
+      r.value(FacingPressure{}) -= passing.into_facing;
+      return;
+    }
+  }
   add_seal<dim, T, G>(body, x, s, r);
 }
 
-/// The closed surface of a porous body.
-struct PorousClosed {
-  using Reads = PorousReads<Rate<TipDisplacement>>;
+template <Facing facing>
+struct DrySlots {
+  template <class... More>
+  using Reads = Slots<More...>;
   using Tests = Slots<Value<Displacement>, Value<PoreVelocity>>;
+};
+template <>
+struct DrySlots<Facing::porous> {
+  template <class... More>
+  using Reads = Slots<More..., Gradient<FacingDisplacement>, Value<FacingPressure>>;
+  using Tests = Slots<Value<Displacement>, Value<PoreVelocity>, Value<PorePressure>, Value<FacingPressure>>;
+};
+
+/// The closed surface of a porous body.
+template <Facing facing>
+struct PorousClosed {
+  using Reads = typename DrySlots<facing>::template Reads<
+      Value<Velocity>, Gradient<Velocity>, Value<Pressure>, Value<Displacement>, Rate<Displacement>,
+      Gradient<Displacement>, Value<PoreVelocity>, Value<PorePressure>, Rate<TipDisplacement>>;
+  using Tests = typename DrySlots<facing>::Tests;
   static constexpr int movers = 4;
   FluidPull fluid;
   PorousSide body;
@@ -219,44 +310,47 @@ struct PorousClosed {
     const T tip = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
                                               s.value(Pressure{}), s.rate(TipDisplacement{}));
     if (!fades) return tip;
+    const T pores = PorousSide::mean_pressure<facing, T>(s);
     Vec<dim, T> way = s.value(Displacement{});
     way += x.partner_position - x.position;
     const T square = dot(way, way);
     if (plain(square) <= 0) return tip;
-    if (plain(square) >= x.cell_size * x.cell_size) return -s.value(PorePressure{});
+    if (plain(square) >= x.cell_size * x.cell_size) return -pores;
     const T part = (1 / x.cell_size) * sqrt(square);
-    return (1 - part) * tip - part * s.value(PorePressure{});
+    return (1 - part) * tip - part * pores;
   }
   template <int dim, class T, class G>
   [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
-    return body.pull<dim, T, G>(x, s);
+    return body.pull<facing, dim, T, G>(x, s);
   }
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    add_dry<dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
+    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
   }
 };
 
 /// The surface of a porous body of which nothing is in the fluid, where it faces the other body.
+template <Facing facing>
 struct PorousShut {
-  using Reads = Slots<Gradient<Displacement>, Rate<Displacement>, Value<PoreVelocity>, Value<PorePressure>>;
-  using Tests = Slots<Value<Displacement>, Value<PoreVelocity>>;
+  using Reads = typename DrySlots<facing>::template Reads<Gradient<Displacement>, Rate<Displacement>,
+                                                          Value<PoreVelocity>, Value<PorePressure>>;
+  using Tests = typename DrySlots<facing>::Tests;
   static constexpr int movers = 2;
   PorousSide body;
   bool fades;  ///< F is -p, thesis (7.30); else nothing
 
   template <int dim, class T, class G>
   [[nodiscard]] T of_fluid(const Point<dim, G>&, const Trial<dim, T, Reads>& s) const {
-    return fades ? T(-s.value(PorePressure{})) : T(0.0);
+    return fades ? T(-PorousSide::mean_pressure<facing, T>(s)) : T(0.0);
   }
   template <int dim, class T, class G>
   [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
-    return body.pull<dim, T, G>(x, s);
+    return body.pull<facing, dim, T, G>(x, s);
   }
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    add_dry<dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
+    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
   }
 };
 

@@ -14,29 +14,32 @@ enum class FilmNumber {
   along,    ///< along, m/s
   seepage,  ///< into the body, m/s
   dropped,  ///< what leaves the film less what enters the pores, m/s
+  through,  ///< out of the pores into those opposite, this look's half, m/s
   body,     ///< normal speed of the body out of the fluid, m/s
   traction  ///< on the body, a component, Pa
 };
 
-template <bool is_near>
+template <Facing facing>
 struct FilmMeasure {
-  using Reads = typename PorousFilm<is_near>::Reads;
+  using Reads = typename PorousFilm<facing>::Reads;
   static constexpr int values(int) { return 1; }
-  PorousFilm<is_near> film;
+  PorousFilm<facing> film;
   FilmNumber number;
   int component = 0;
 
   template <int dim>
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
     if (number == FilmNumber::traction)
-      return TractionOf<PorousFilm<is_near>>{film, component}.template operator()<dim>(x, s, value);
+      return TractionOf<PorousFilm<facing>>{film, component}.template operator()<dim>(x, s, value);
     const Vec<dim, double> skeleton = s.rate(Displacement{});
     const auto passing = film.template passes<dim, double, double>(x, s);
     *value = dot(skeleton, x.normal);
     if (number == FilmNumber::body) return;
-    *value = -passing.out_of_pores;
+    *value = passing.into_facing;
+    if (number == FilmNumber::through) return;
+    *value = passing.into_facing - passing.out_of_pores;
     if (number == FilmNumber::seepage) return;
-    *value = passing.out_of_pores - passing.into_fluid;
+    *value = passing.out_of_pores - passing.into_facing - passing.into_fluid;
     if (number == FilmNumber::dropped) return;
     const double porosity = film.body.mismatch.template of_pores<dim, double>(s)[0];
     const Vec<dim, double> both = film.body.mismatch.template operator()<dim, double, double>(x, s, porosity);
@@ -61,16 +64,17 @@ inline double touch(TouchNumber number, double gap, double contact, double of_fl
   return number == TouchNumber::pressure ? -contact : -contact * normal;
 }
 
+template <Facing facing>
 struct NearTouch {
-  using Reads = PorousFilm<true>::Reads;
+  using Reads = typename PorousFilm<facing>::Reads;
   static constexpr int values(int) { return 1; }
-  PorousFilm<true> film;
+  PorousFilm<facing> film;
   TouchNumber number;
   int component = 0;
   template <int dim>
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
-    *value = touch(number, x.gap, film.body.pull<dim, double, double>(x, s),
-                   film.passes<dim, double, double>(x, s).pull, x.normal[component]);
+    *value = touch(number, x.gap, film.body.template pull<facing, dim, double, double>(x, s),
+                   film.template passes<dim, double, double>(x, s).pull, x.normal[component]);
   }
 };
 
@@ -86,6 +90,19 @@ struct DryTouch {
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
     *value = touch(number, x.gap, kernel.template of_bodies<dim, double, double>(x, s),
                    kernel.template of_fluid<dim, double, double>(x, s), x.normal[component]);
+  }
+};
+
+/// Out of closed or shut pores into those opposite, this look's half, m/s.
+template <class Kernel>
+struct SeepageThrough {
+  using Reads = typename Kernel::Reads;
+  static constexpr int values(int) { return 1; }
+  Kernel kernel;
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    *value =
+        kernel.body.seal.meets(x) ? 0.5 * kernel.body.template state<dim, double, double>(x, s).seepage : 0.0;
   }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A porous block in a fluid: its state of rest, and the sum of all forces.
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "scene_run.hpp"
 
@@ -56,13 +58,20 @@ output:
     foot: {field: block, on: y_min, quantity: reaction, component: y}
     push: {interface: face, quantity: force, component: y}
 )";
+std::string with(std::string scene, const std::vector<std::array<std::string, 2>>& changes) {
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = scene.find(from);
+    REQUIRE(at != std::string::npos);
+    scene.replace(at, from.size(), to);
+  }
+  return scene;
+}
+
 /// The same block on a solid ground, under loads that grow for a while.
 std::string standing() {
   std::string scene = block_scene;
   const auto change = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = scene.find(from);
-    REQUIRE(at != std::string::npos);
-    scene.replace(at, from.size(), to);
+    scene = with(scene, {{from, to}});
   };
   change("end: 3,", "end: 3, grow: 1e-9,");
   change("from: [0, 0], to: [1, 2.5]", "from: [0, -0.1], to: [1, 2.4]");
@@ -88,6 +97,19 @@ std::string standing() {
       "    push: {interface: face, quantity: force, component: y}\n",
       "  formulas: {foot: face_contact_force_y}\n");
   return scene;
+}
+
+/// On a porous ground.
+std::string standing_on_pores() {
+  return with(standing(),
+              {{"    type: solid\n    mesh: ground\n",
+                "    type: porous_solid\n    mesh: ground\n    viscosity: 1\n    porosity: {initial: 0.4}\n"
+                "    permeability: [1e-3]\n"},
+               {"displacement: [0, 0]}]\n",
+                "displacement: [0, 0]}, {on: [x_min, x_max, y_min], velocity: [0, 0]}]\n"},
+               {"body: ground, to: block}", "body: ground, to: block, boundaries: y_max}"},
+               {"porous_contact_in_fluid, on: face}", "porous_contact_in_fluid, on: face, stress: own}"},
+               {"{type: contact_in_fluid, on: floor", "{type: porous_contact_in_fluid, on: floor"}});
 }
 
 const std::string at_rest =
@@ -119,6 +141,8 @@ TEST_CASE("a porous block rests in a fluid under pressure, and gets its load and
       const std::string march = " --set parameters.end=6e4 --set parameters.step=2e3";
       check_rest(Run(block_scene, options + march), 1e-9);
       check_rest(Run(standing(), options + at_rest), 1e-12);
+      check_rest(Run(standing_on_pores(), options + at_rest + " --set fields.ground.initial.pressure=3"),
+                 1e-12);
       check_rest(Run(standing(), options + march + " --set parameters.grow=1e4"), 1e-9);
     }
   }

@@ -7,6 +7,95 @@
 
 using namespace seam_cli_test;
 
+namespace {
+
+/// They are pressed together, tight on top, and drain through the foot of the lower one.
+const std::string two_columns = R"yaml(
+title: Two porous columns on top of each other
+dimension: 2
+plugins: [solid, cutfem_fluid, poroelasticity, nitsche_fsci]
+parameters: {n: 4, step: 0.125, end: 8, load: 0.5, sink: 1e-5}
+meshes:
+  film: {grid: {from: [0, 0.41], to: [0.125, 0.66], cells: [2, 4]}}
+  upper: {grid: {from: [-0.02, "0.5-sink"], to: [0.145, "1-sink"], cells: [2, n]}}
+  lower: {grid: {from: [-0.02, 0], to: [0.145, 0.5], cells: [3, n]}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: film
+    density: 0.1
+    viscosity: 1
+    fix_pressure: never
+    boundary: [{on: [x_min, x_max], slip: true}]
+  upper:
+    type: porous_solid
+    mesh: upper
+    material: {type: neo_hookean, young: 50, poisson: 0}
+    viscosity: 1
+    porosity: {initial: 0.5, bulk: 100, opening: 1}
+    permeability: [1e-3]
+    boundary:
+      - {on: [x_min, x_max], displacement: [0, null], velocity: [0, null]}
+      - {on: y_max, traction: [0, "-load*min(t/2, 1)"], seepage: 0}
+  lower:
+    type: porous_solid
+    mesh: lower
+    material: {type: neo_hookean, young: 50, poisson: 0}
+    viscosity: 1
+    porosity: {initial: 0.5, bulk: 100, opening: 1}
+    permeability: [1e-3]
+    boundary:
+      - {on: [x_min, x_max], displacement: [0, null], velocity: [0, null]}
+      - {on: y_min, displacement: [0, 0], pore_pressure: 0}
+interfaces:
+  down: {type: embedded_contact, field: water, body: upper, to: lower, boundaries: [y_min, x_min, x_max]}
+  up: {type: embedded_contact, field: water, body: lower, to: upper, boundaries: [y_max, x_min, x_max]}
+coupling:
+  - {type: porous_contact_in_fluid, on: down}
+  - {type: porous_contact_in_fluid, on: up}
+time: {theta: 1, end: "${end}", step: {initial: "${step}"}}
+solver: {newton: {tolerance: 1e-10, increment_tolerance: 1e-9, maximum_iterations: 40}, linear: {type: direct}}
+output:
+  fields: false
+  probes:
+    top: {field: upper, at: [0, "1-sink"], quantity: displacement, component: y}
+    high: {field: upper, at: [0, "0.75-sink"], quantity: pressure}
+    above: {field: upper, at: [0, "0.5-sink"], quantity: pressure}
+    below: {field: lower, at: [0, 0.5], quantity: pressure}
+    low: {field: lower, at: [0, 0.25], quantity: pressure}
+)yaml";
+const std::string one_column = R"yaml(
+title: One of the same height
+dimension: 2
+plugins: [solid, poroelasticity]
+parameters: {n: 4, step: 0.125, end: 8, load: 0.5}
+meshes:
+  column: {grid: {from: [-0.02, 0], to: [0.145, 1], cells: [2, "2*n"]}}
+fields:
+  column:
+    type: porous_solid
+    mesh: column
+    material: {type: neo_hookean, young: 50, poisson: 0}
+    viscosity: 1
+    porosity: {initial: 0.5, bulk: 100, opening: 1}
+    permeability: [1e-3]
+    boundary:
+      - {on: [x_min, x_max], displacement: [0, null], velocity: [0, null]}
+      - {on: y_max, traction: [0, "-load*min(t/2, 1)"], seepage: 0}
+      - {on: y_min, displacement: [0, 0], pore_pressure: 0}
+time: {theta: 1, end: "${end}", step: {initial: "${step}"}}
+solver: {newton: {tolerance: 1e-10, increment_tolerance: 1e-9, maximum_iterations: 40}, linear: {type: direct}}
+output:
+  fields: false
+  probes:
+    top: {field: column, at: [0, 1], quantity: displacement, component: y}
+    high: {field: column, at: [0, 0.75], quantity: pressure}
+    above: {field: column, at: [0, 0.5], quantity: pressure}
+    low: {field: column, at: [0, 0.25], quantity: pressure}
+)yaml";
+
+}  // namespace
+
 TEST_CASE("a porous column closes a film of fluid that can only drain through it", "[sanitized]") {
   SECTION("what the film loses the pores get, and forces balance, in each step") {
     const ShippedRun run("poro/falling_column", "--set checks=[] --set parameters.end=4");
@@ -60,6 +149,38 @@ TEST_CASE("a porous column closes a film of fluid that can only drain through it
         seam("run " SEAM_SOURCE_DIR "/configs/poro/falling_column.yaml --set coupling.1.stress=own");
     CHECK(stress.code != 0);
     CHECK_THAT(stress.output, Catch::Contains("write `stress: other`"));
+  }
+}
+
+TEST_CASE("two porous columns that touch consolidate as one", "[sanitized]") {
+  for (const std::string stress : {"", " --set coupling.0.stress=own --set coupling.1.stress=other"}) {
+    CAPTURE(stress);
+    const Run one(one_column, ""), two(two_columns, stress);
+    INFO(two.done.output);
+    REQUIRE(two.done.code == 0);
+    const std::vector<double> time = two.series("time"), down = two.series("down.seepage_through"),
+                              up = two.series("up.seepage_through"), push = two.series("down.force.y"),
+                              back = two.series("up.force.y");
+    // What one loses the other gets.
+    const std::vector<double> upper = two.series("upper.fluid_volume");
+    for (std::size_t k = 1; k < time.size(); ++k) {
+      CHECK(std::abs(upper[k] - upper[k - 1] + (time[k] - time[k - 1]) * (down[k] - up[k])) < 1e-14);
+      CHECK(push[k] == Approx(0.165 * 0.5 * std::min(time[k] / 2, 1.0)).epsilon(1e-8));
+      CHECK(push[k] == Approx(-back[k]).epsilon(1e-6));
+    }
+    CHECK(upper.back() < 0.995 * upper.front());
+    // Later than the first steps, which are short where the pressure on the joint comes and goes.
+    const auto at = [](const Run& run, const std::string& name, double when) {
+      const std::vector<double> times = run.series("time");
+      return run.series(name).at(std::ranges::lower_bound(times, when - 1e-9) - times.begin());
+    };
+    for (const double when : {2.0, 4.0, 8.0}) {
+      CAPTURE(when);
+      for (const std::string name : {"high", "low"})
+        CHECK(at(two, name, when) == Approx(at(one, name, when)).margin(5e-4 * 0.5));
+      CHECK(at(two, "above", when) == Approx(at(one, "above", when)).margin(2e-3 * 0.5));  // coarse
+      CHECK(at(two, "below", when) == Approx(at(two, "above", when)).margin(1e-3 * 0.5));
+    }
   }
 }
 

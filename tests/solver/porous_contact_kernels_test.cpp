@@ -81,7 +81,7 @@ void check_tight() {
   x.normal = {{-0.6, -0.8}};  // out of the fluid: the body's own is (0.6, 0.8)
   x.cell_size = 0.5;
   const PorousSide body{
-      {std::make_shared<GivenPores>(), {}, false}, nullptr, 3, 1, {Seal::Kind::resistance, 0, 0}};
+      {std::make_shared<GivenPores>(), {}, false}, {nullptr, nullptr, 1}, 3, {Seal::Kind::resistance, 0, 0}};
   // grad u, du/dt, v, p
   const double in[] = {0.1, 0.2, -0.1, 0.3, 0.5, -0.2, 0.9, 0.7, 1.7};
   REQUIRE(PorousCovered::Reads::size(2) == 9);
@@ -93,10 +93,62 @@ void check_tight() {
   CHECK(out[1] == Approx((1.7 + c * seepage) * 0.8));
 }
 
+/// Both see the mean of both pressures; what leaves one enters the other, and no power is lost.
+void check_open_pores() {
+  struct NoStress final : Law {
+    void evaluate(int, const double*, double* value, double*, double*) const override {
+      std::fill_n(value, 4, 0.0);
+    }
+  };
+  Point<2> x;
+  x.normal = {{-0.6, -0.8}};
+  x.cell_size = 0.5;
+  x.gap = -0.01;
+  x.constant = {200, 50};
+  using Kernel = PorousShut<Facing::porous>;
+  const auto law = std::make_shared<NoStress>();
+  Kernel kernel{{{std::make_shared<GivenPores>(), {}, false}, {law, law, 0.5}, 3, {}}, true};
+  // grad u, du/dt, v, p; grad u', p'
+  const double in[] = {0.1, 0.2, -0.1, 0.3, 0.5, -0.2, 0.9, 0.7, 1.7, 0.05, 0.1, -0.2, 0.1, 0.6};
+  REQUIRE(Kernel::Reads::size(2) == 14);
+  const auto at = [&](Whose whose) {
+    kernel.body.bodies.stress = whose;
+    std::array<double, 6> out{};
+    Test<2, double, Kernel::Tests> r{out.data()};
+    kernel.operator()<2, double, double>(x, Trial<2, double, Kernel::Reads>{in}, r);
+    return out;
+  };
+  const auto out = at(Whose::own);
+  const double seepage = 0.4 * ((0.9 - 0.5) * 0.6 + (0.7 + 0.2) * 0.8), mean = (1.7 + 0.6) / 2;
+  // u, v, p, p'
+  CHECK(out[2] == Approx(mean * 0.6));
+  CHECK(out[3] == Approx(mean * 0.8));
+  CHECK(out[4] == Approx(seepage / 2));
+  CHECK(out[5] == Approx(-seepage / 2));
+  // Half of what this look's own power is: q (p^ - p) + q^ p - q^ p' = 0.
+  CHECK(seepage * (mean - 1.7) + out[4] * 1.7 + out[5] * 0.6 == Approx(0).margin(1e-12));
+  // The gap's penalty is that of whose stress it is; F = -p^ where it is less.
+  CHECK(out[0] == Approx(-std::min(-0.5 * 200 * 0.01, -mean) * 0.6));
+  CHECK(at(Whose::other)[1] == Approx(-std::min(-0.5 * 50 * 0.01, -mean) * 0.8));
+  // Across what the fluid's mesh ends before they are sealed.
+  x.gap = 0.1;
+  const auto apart = at(Whose::own);
+  CHECK(apart[2] == Approx((1.7 + 3 * 0.5 / 0.02 * seepage) * 0.6));
+  CHECK(apart[4] == 0);
+  CHECK(apart[5] == 0);
+  const Exchange<double> dry = between_pores<double>(-2, 1.7, 0.6, seepage);
+  CHECK(dry.pull == -2);
+  CHECK(dry.into_fluid == 0);
+  CHECK(dry.out_of_pores == out[4]);
+  CHECK(dry.into_facing == -out[5]);
+  CHECK(dry.pore_pressure == Approx(mean));
+}
+
 }  // namespace
 
 TEST_CASE("a seal takes power, loses no fluid, and closes within its width") {
   check_exchange();
   check_width();
   check_tight();
+  check_open_pores();
 }
