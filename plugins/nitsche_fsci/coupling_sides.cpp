@@ -120,10 +120,11 @@ std::vector<const Neighbour*> looks_back(const std::vector<Neighbour>& all, std:
 
 void check_stresses(const Neighbour& self, const std::vector<const Neighbour*>& back) {
   const Parameters& mine = self.parameters;
-  const std::string& whose = mine.text("stress");
+  const auto whose_of = [](const Parameters& p) { return p.has("stress") ? p.text("stress") : "both"; };
+  const std::string whose = whose_of(mine);
   if (whose == "both") return;
   for (const Neighbour* other : back) {
-    if (other->parameters.text("stress") != whose) continue;
+    if (whose_of(other->parameters) != whose) continue;
     throw Error(
         mine.where("stress"),
         fmt::format("`stress: {}` on both looks of '{}' and '{}' at each other: each body is told "

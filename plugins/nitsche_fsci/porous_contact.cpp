@@ -66,9 +66,9 @@ class PorousContact final : public Coupling {
     s.object("near_slip", "Additional slip near the other surface", slip).otherwise("{}");
     s.choice("stress",
              "Against a porous body: whose stress stands for that between the bodies, that of `both`, "
-             "weighted, or of one. Against another one it is the porous one's own",
+             "weighted, or of one; default both. Against another one it is the porous one's own",
              {"both", "own", "other"})
-        .otherwise("both");
+        .optional();
     Schema seal("How the pores close where the bodies touch.");
     seal.choice("by",
                 "`resistance` of a layer that thickens as the gap closes: what pores lose the fluid gets; "
@@ -213,9 +213,9 @@ class PorousContact final : public Coupling {
             seal()};
   }
   [[nodiscard]] Whose whose(const CouplingSides& sides) const {
-    const std::string& name = parameters_.text("stress");
     if (!is_porous(sides, 2)) return Whose::own;
-    return name == "both" ? Whose::both : (name == "own" ? Whose::own : Whose::other);
+    if (!parameters_.has("stress") || parameters_.text("stress") == "both") return Whose::both;
+    return parameters_.text("stress") == "own" ? Whose::own : Whose::other;
   }
   template <Facing facing>
   [[nodiscard]] PorousFilm<facing> film(const CouplingSides& sides) const {

@@ -149,6 +149,9 @@ TEST_CASE("a porous column closes a film of fluid that can only drain through it
         seam("run " SEAM_SOURCE_DIR "/configs/poro/falling_column.yaml --set coupling.1.stress=own");
     CHECK(stress.code != 0);
     CHECK_THAT(stress.output, Catch::Contains("write `stress: other`"));
+    const Run both_own(two_columns, "--set coupling.0.stress=own --set coupling.1.stress=own");
+    CHECK(both_own.done.code != 0);
+    CHECK_THAT(both_own.done.output, Catch::Contains("`stress: own` on both looks of"));
   }
 }
 
