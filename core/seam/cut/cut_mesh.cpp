@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "seam/assembly/together.hpp"
+#include "seam/base/diagnostics.hpp"
 #include "seam/cut/agree_on_faces.hpp"
 #include "seam/cut/cell_map.hpp"
 #include "seam/cut/clip.hpp"
@@ -143,15 +144,31 @@ void CutMesh::cut(std::span<const Surface> bodies) {
   number_cut_cells();
 }
 
-/// A ghost cell may have become cut by what a sliver handed over that only its owner sees.
+/// A ghost cell may have become cut by what a sliver handed over that only its owner sees, or have kept one
+/// that its owner handed over: what is a body there is one here. Where one is wet and the other a body, the
+/// surfaces are open in a way that neither rank sees by itself.
 void CutMesh::adopt_ghost_states() {
   Geometry& g = *geometry_;
   std::vector<int> missed;
+  std::vector<char> handed_over(mesh_->cells(), 0);
+  int torn = -1;
   g.ghosts.update([&](int c) { return static_cast<int>(state_[c]); },
                   [&](int c, int value) {
-                    if (static_cast<CellState>(value) == CellState::cut && state_[c] == CellState::wet)
-                      missed.push_back(c);
+                    const auto owners = static_cast<CellState>(value);
+                    if (owners == state_[c]) return;
+                    if (owners != CellState::cut && state_[c] != CellState::cut) torn = mesh_->global_cell(c);
+                    if (owners == CellState::cut && state_[c] == CellState::wet) missed.push_back(c);
+                    if (owners != CellState::body) return;
+                    handed_over[c] = 1;
+                    state_[c] = CellState::body;
                   });
+  torn = mesh_->communicator().max(torn);
+  if (torn >= 0)
+    throw Error(
+        fmt::format("the surfaces that cut mesh '{}' are not closed inside of it: cell {} lies inside and "
+                    "outside; let open surfaces end outside the mesh or on its boundary",
+                    mesh_->name(), torn));
+  std::erase_if(g.cells, [&](const CutCell& cell) { return handed_over[cell.cell] != 0; });
   for (const int c : missed) {
     state_[c] = CellState::cut;
     g.cells.push_back(whole_cell(g.outline, c));
