@@ -88,11 +88,12 @@ Exchange<T> exchange(const Seal& seal, const T& alpha, const T& stress, const T&
   return {pull, flow, open * seepage, alpha * pressure - open * pull, T(0.0)};
 }
 
-/// The same at a dry point between pores, of which the fluid's film sees nothing.
+/// The same at a dry point between pores, of which the fluid's film sees nothing. @param mean of both
+/// pressures
 template <class T>
-Exchange<T> between_pores(const T& pull, const T& pressure, const T& facing_pressure, const T& seepage) {
+Exchange<T> between_pores(const T& pull, const T& mean, const T& seepage) {
   const T half = 0.5 * seepage;
-  return {pull, T(0.0), half, 0.5 * (pressure + facing_pressure), half};
+  return {pull, T(0.0), half, mean, half};
 }
 
 /// A porous body's own part of what its kernels read.
@@ -190,7 +191,7 @@ struct PorousFilm {
     T sealed(0.0);
     if constexpr (facing == Facing::porous) {
       if (body.seal.is_dry(x, start<dim, T, G>(x, s)))
-        return between_pores<T>(T(stress + penalty * speed), state.pressure, s.value(FacingPressure{}),
+        return between_pores<T>(T(stress + penalty * speed), PorousSide::mean_pressure<facing, T>(s),
                                 state.seepage);
     } else {
       sealed = body.seal.template closed<dim, T, G>(x, start<dim, T, G>(x, s));
@@ -266,9 +267,8 @@ void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T
   r.value(Displacement{}) += (plain(contact) < plain(pull) ? contact : pull) * x.normal;
   if constexpr (facing == Facing::porous) {
     if (body.seal.meets(x)) {
-      const auto state = body.template state<dim, T, G>(x, s);
-      const Exchange<T> passing =
-          between_pores<T>(pull, state.pressure, s.value(FacingPressure{}), state.seepage);
+      const Exchange<T> passing = between_pores<T>(pull, PorousSide::mean_pressure<facing, T>(s),
+                                                   body.template state<dim, T, G>(x, s).seepage);
       r.value(PoreVelocity{}) -= passing.pore_pressure * x.normal;
       r.value(PorePressure{}) += passing.out_of_pores;
       r.value(FacingPressure{}) -= passing.into_facing;

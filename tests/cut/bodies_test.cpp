@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Several bodies in the plane, and surfaces that are not closed.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <map>
 
 #include "cut/cut_test.hpp"
 
@@ -184,6 +186,63 @@ TEST_CASE("What an open surface leaves open behind the border says nothing of it
               CHECK(total_fluid(cut) == Approx(.3 * .9 + film).epsilon(0).margin(1e-9));
             }
           }
+}
+
+TEST_CASE("Surfaces that are torn are refused on all ranks, or cut alike", "[cut][bodies][ranks]") {
+  // Half of a stamp as an iteration has thrown it about: its foot and side, open at both ends, leave the mesh
+  // where they should not.
+  const Surface foot = open_line({{-1.041, 0.645, 0},
+                                  {-0.565, 0.368, 0},
+                                  {-0.654, 0.284, 0},
+                                  {-0.640, 0.247, 0},
+                                  {-0.619, 0.222, 0},
+                                  {-0.468, 0.081, 0},
+                                  {-0.358, -0.009, 0},
+                                  {-0.313, -0.005, 0},
+                                  {-0.049, 0.015, 0},
+                                  {-0.110, 0.045, 0},
+                                  {0.000, -0.015, 0}});
+  const Surface side = open_line({{-0.662, 1.659, 0},
+                                  {-0.681, 1.588, 0},
+                                  {-0.693, 1.519, 0},
+                                  {-0.696, 1.462, 0},
+                                  {-0.686, 1.454, 0},
+                                  {-0.784, 1.353, 0},
+                                  {-0.868, 1.087, 0},
+                                  {-0.793, 1.156, 0},
+                                  {-0.709, 0.866, 0},
+                                  {-0.725, 0.844, 0},
+                                  {-0.779, 0.856, 0},
+                                  {-0.807, 0.910, 0},
+                                  {-0.749, 0.656, 0},
+                                  {-0.746, 0.716, 0},
+                                  {-0.938, 0.777, 0},
+                                  {-0.866, 0.631, 0},
+                                  {-0.973, 0.578, 0},
+                                  {-1.041, 0.645, 0}});
+  const Surface ground = polygon({{-1.05, -.3, 0}, {.05, -.3, 0}, {.05, 0, 0}, {-1.05, 0, 0}});
+  const Mesh mesh = grid(CellType::quadrilateral, {12, 18, 0}, [](const Point& x) {
+    return Point{x[0] - 1, 1.5 * x[1] - .25, 0};
+  });
+  const Communicator all;
+  CutMesh cut(mesh);
+  bool is_cut = true;
+  try {
+    cut.cut(std::vector{foot, side, ground});
+  } catch (const Error& error) {
+    is_cut = false;
+    CHECK_THAT(error.what(), Catch::Contains("not closed inside of it"));
+  }
+  REQUIRE(all.sum(static_cast<long long>(is_cut)) % all.size() == 0);
+  if (!is_cut) return;
+  std::vector<std::array<int, 2>> mine;
+  for (int c = 0; c < mesh.cells(); ++c)
+    mine.push_back({mesh.global_cell(c), static_cast<int>(cut.state(c))});
+  std::map<int, int> state;
+  for (const auto& [cell, is] : all.gather_all(mine)) {
+    INFO("cell " << cell);
+    CHECK(state.try_emplace(cell, is).first->second == is);
+  }
 }
 
 TEST_CASE("An open surface that ends on the border cuts in any unit, turned, and of short facets",

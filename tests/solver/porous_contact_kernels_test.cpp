@@ -75,6 +75,12 @@ struct GivenPores final : Law {
   }
 };
 
+struct NoStress final : Law {
+  void evaluate(int, const double*, double* value, double*, double*) const override {
+    std::fill_n(value, 4, 0.0);
+  }
+};
+
 /// Where pores are tight their pressure resists what flows out, with c = mu l/k: power is lost, not won.
 void check_tight() {
   Point<2> x;
@@ -95,11 +101,6 @@ void check_tight() {
 
 /// Both see the mean of both pressures; what leaves one enters the other, and no power is lost.
 void check_open_pores() {
-  struct NoStress final : Law {
-    void evaluate(int, const double*, double* value, double*, double*) const override {
-      std::fill_n(value, 4, 0.0);
-    }
-  };
   Point<2> x;
   x.normal = {{-0.6, -0.8}};
   x.cell_size = 0.5;
@@ -136,12 +137,46 @@ void check_open_pores() {
   CHECK(apart[2] == Approx((1.7 + 3 * 0.5 / 0.02 * seepage) * 0.6));
   CHECK(apart[4] == 0);
   CHECK(apart[5] == 0);
-  const Exchange<double> dry = between_pores<double>(-2, 1.7, 0.6, seepage);
+  const Exchange<double> dry = between_pores<double>(-2, mean, seepage);
   CHECK(dry.pull == -2);
   CHECK(dry.into_fluid == 0);
   CHECK(dry.out_of_pores == out[4]);
   CHECK(dry.into_facing == -out[5]);
   CHECK(dry.pore_pressure == Approx(mean));
+}
+
+/// A wet point that counts as dry: what leaves the pores enters those opposite, and not the film.
+void check_dry_film() {
+  using Kernel = PorousFilm<Facing::porous>;
+  Point<2> x;
+  x.normal = {{-0.6, -0.8}};
+  x.cell_size = x.trace_size = 0.5;
+  x.gap = 1e-3;
+  const auto law = std::make_shared<NoStress>();
+  // As narrow at the start of the step, by as much as nothing has moved since.
+  const Kernel kernel{
+      {1, 3, false},
+      {{std::make_shared<GivenPores>(), {}, false}, {law, law, 0.5}, 3, {Seal::Kind::resistance, 0, 2e-3}},
+      {},
+      1,
+      {}};
+  std::vector<double> in(Kernel::Reads::size(2), 0.0);
+  const auto set = [&]<class R>(R, std::initializer_list<double> values) {
+    std::copy(values.begin(), values.end(), &in[Kernel::Reads::offset<R>(2)]);
+  };
+  set(Rate<Displacement>{}, {0.5, -0.2});
+  set(Value<PoreVelocity>{}, {0.9, 0.7});
+  set(Value<PorePressure>{}, {1.7});
+  set(Value<FacingPressure>{}, {0.6});
+  std::vector<double> out(Kernel::Tests::size(2), 0.0);
+  Test<2, double, Kernel::Tests> r{out.data()};
+  kernel.operator()<2, double, double>(x, Trial<2, double, Kernel::Reads>{in.data()}, r);
+  const double seepage = 0.4 * ((0.9 - 0.5) * 0.6 + (0.7 + 0.2) * 0.8);
+  CHECK(*r.value(PorePressure{}).data == Approx(seepage / 2));
+  CHECK(*r.value(FacingPressure{}).data == Approx(-seepage / 2));
+  CHECK(r.value(PoreVelocity{}).data[0] == Approx((1.7 + 0.6) / 2 * 0.6));
+  // The fluid's balance has v - du/dt alone, along the body's normal.
+  CHECK(*r.value(Pressure{}).data == Approx(-(0.5 * 0.6 - 0.2 * 0.8)));
 }
 
 }  // namespace
@@ -151,4 +186,5 @@ TEST_CASE("a seal takes power, loses no fluid, and closes within its width") {
   check_width();
   check_tight();
   check_open_pores();
+  check_dry_film();
 }
