@@ -22,7 +22,7 @@ std::string column_of(const std::string& mesh, const std::string& ends) {
 }
 
 const std::string pressed = "      - {on: y_max, traction: [0, \"-0.5*min(t/2, 1)\"], seepage: 0}\n",
-                  drained = "      - {on: y_min, displacement: [0, 0], pore_pressure: 0}\n", rest = R"yaml(
+                  drained = "      - {on: y_min, displacement: [0, 0], pore_pressure: 0}\n", steps = R"yaml(
 time: {theta: 1, end: 8, step: {initial: 0.125}}
 solver: {newton: {tolerance: 1e-10, increment_tolerance: 1e-9, maximum_iterations: 40}, linear: {type: direct}}
 )yaml";
@@ -59,7 +59,7 @@ output:
     above: {field: upper, at: [0, 0.49999], quantity: pressure}
     below: {field: lower, at: [0, 0.5], quantity: pressure}
     low: {field: lower, at: [0, 0.25], quantity: pressure}
-)yaml" + rest;
+)yaml" + steps;
 
 const std::string one_column = R"yaml(
 title: One of the same height
@@ -75,7 +75,7 @@ output:
     high: {field: column, at: [0, 0.75], quantity: pressure}
     above: {field: column, at: [0, 0.5], quantity: pressure}
     low: {field: column, at: [0, 0.25], quantity: pressure}
-)yaml" + rest;
+)yaml" + steps;
 
 }  // namespace
 
