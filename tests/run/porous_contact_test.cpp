@@ -21,8 +21,9 @@ std::string column_of(const std::string& mesh, const std::string& ends) {
 )yaml" + ends;
 }
 
-const std::string pressed = "      - {on: y_max, traction: [0, \"-0.5*min(t/2, 1)\"], seepage: 0}\n",
-                  drained = "      - {on: y_min, displacement: [0, 0], pore_pressure: 0}\n", steps = R"yaml(
+const std::string pressed_top = "      - {on: y_max, traction: [0, \"-0.5*min(t/2, 1)\"], seepage: 0}\n",
+                  drained_foot = "      - {on: y_min, displacement: [0, 0], pore_pressure: 0}\n",
+                  steps = R"yaml(
 time: {theta: 1, end: 8, step: {initial: 0.125}}
 solver: {newton: {tolerance: 1e-10, increment_tolerance: 1e-9, maximum_iterations: 40}, linear: {type: direct}}
 )yaml";
@@ -44,8 +45,8 @@ fields:
     viscosity: 1
     fix_pressure: never
     boundary: [{on: [x_min, x_max], slip: true}]
-)yaml" + column_of("upper", pressed) +
-                                column_of("lower", drained) + R"yaml(
+)yaml" + column_of("upper", pressed_top) +
+                                column_of("lower", drained_foot) + R"yaml(
 interfaces:
   down: {type: embedded_contact, field: water, body: upper, to: lower, boundaries: [y_min, x_min, x_max]}
   up: {type: embedded_contact, field: water, body: lower, to: upper, boundaries: [y_max, x_min, x_max]}
@@ -67,7 +68,7 @@ dimension: 2
 plugins: [solid, poroelasticity]
 meshes: {column: {grid: {from: [-0.02, 0], to: [0.145, 1], cells: [2, 8]}}}
 fields:
-)yaml" + column_of("column", pressed + drained) +
+)yaml" + column_of("column", pressed_top + drained_foot) +
                                R"yaml(
 output:
   fields: false
