@@ -59,6 +59,21 @@ struct Apart {
   }
 };
 
+/// A component of the traction on side 0's body at rest, Pa: minus what its test displacement gets.
+struct JointTraction {
+  using Reads = Bonded::Reads;
+  static constexpr int values(int) { return 1; }
+  Bonded bond;
+  int component;
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    double coefficients[Bonded::Tests::size(dim)] = {};
+    Test<dim, double, Bonded::Tests> r{coefficients};
+    bond.operator()<dim, double>(x, s, r);
+    *value = -r.value(Own{}).data[component];
+  }
+};
+
 /// M, Pa.
 double stiffness(const Law& law, int dimension) {
   const std::size_t n = static_cast<std::size_t>(dimension) * dimension;
@@ -93,17 +108,25 @@ class Bond final : public Coupling {
           fmt::format("the body on side 0 gives the stress, for which '{}' is no solid but porous: put "
                       "the solid first",
                       sides.fields[0]->name()));
-    const std::shared_ptr<const Law> law = law_of(sides, 0);
-    const double modulus = stiffness(*law, parameters_.dimension());
-    return {{make_term(Bonded{law, adjoint_of(parameters_), parameters_.number("penalty") * modulus}, 1),
-             operands(sides)}};
+    return {{make_term(bond(sides), 1), operands(sides)}};
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
-    return {{"apart", {{make_quantity(Apart{}), operands(sides)}}}};
+    std::vector<Measure> result{{"apart", {{make_quantity(Apart{}), operands(sides)}}}};
+    constexpr const char* axis[] = {".x", ".y", ".z"};
+    for (int c = 0; c < parameters_.dimension(); ++c)
+      result.push_back({std::string("force") + axis[c],
+                        {{make_quantity(JointTraction{bond(sides), c}), operands(sides)}},
+                        MeasureOf::integral});
+    return result;
   }
 
  private:
+  [[nodiscard]] Bonded bond(const CouplingSides& sides) const {
+    const std::shared_ptr<const Law> law = law_of(sides, 0);
+    const double modulus = stiffness(*law, parameters_.dimension());
+    return {law, adjoint_of(parameters_), parameters_.number("penalty") * modulus};
+  }
   static std::vector<Operand> operands(const CouplingSides& sides) {
     std::vector<Operand> both{{0, "displacement"}, {1, "displacement"}};
     for (const Operand& operand : both)
@@ -120,7 +143,10 @@ void declare_bonded(Registry& registry) {
                          [](const Parameters& p, const Registry&) { return std::make_unique<Bond>(p); });
   registry.publishes(
       "coupling", "bonded",
-      {{Published::As::series, "apart", "m m^((d-1)/2)", "L2 norm of the difference of the displacements"}});
+      {{Published::As::series, "apart", "m m^((d-1)/2)", "L2 norm of the difference of the displacements"},
+       {Published::As::series, "force.x", "N", "force through the joint on the body of side 0"},
+       {Published::As::series, "force.y", "N", "force through the joint on the body of side 0"},
+       {Published::As::series, "force.z", "N", "force through the joint on the body of side 0"}});
 }
 
 }  // namespace seam::fsci

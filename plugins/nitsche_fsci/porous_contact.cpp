@@ -80,20 +80,20 @@ class PorousContact final : public Coupling {
         .unit("m")
         .above(0)
         .optional();
-    seal.number("dry", "Points whose gap at the start of a step was narrower are sealed")
+    seal.number(
+            "dry",
+            "Points whose gap at the start of a step was narrower are sealed; between porous bodies, with "
+            "the extension `constant`, they are open to each other and not to the film")
         .unit("m")
         .otherwise("0")
         .at_least(0);
-    s.object("seal",
-             "How the pores close where the bodies touch; between porous ones they stay open, and only `dry` "
-             "counts",
-             seal)
+    s.object("seal", "How the pores close where the bodies touch; between porous ones they stay open", seal)
         .otherwise("{}");
-    s.choice("extension",
-             "What the fluid's traction is where the bodies are closed: `constant`, that of the nearest wet "
-             "point, "
-             "thesis (7.29), or the `pore_pressure` beyond one cell of the fluid from it, (7.30)",
-             {"constant", "pore_pressure"})
+    s.choice(
+         "extension",
+         "What the fluid's traction is where the bodies are closed: beyond one cell of the fluid from the "
+         "nearest wet point the `pore_pressure`, thesis (7.30), or that of this point, `constant`, (7.29)",
+         {"pore_pressure", "constant"})
         .otherwise("constant");
     declare_adjoint(s);
     Schema penalty("Factors of Nitsche's penalty.");
@@ -153,8 +153,10 @@ class PorousContact final : public Coupling {
     const auto touching = [&](TouchNumber number, int component = 0) {
       return std::vector<SideTerm>{
           {make_quantity(NearTouch<facing>{near, number, component}), at.near, scale, "near"},
-          {make_quantity(DryTouch<PorousClosed<facing>>{dry, number, component}), at.closed, scale, "closed"},
-          {make_quantity(DryTouch<PorousShut<facing>>{shut, number, component}), at.shut, scale, "shut"}};
+          {make_quantity(DryTouch<facing, PorousClosed<facing>>{dry, number, component}), at.closed, scale,
+           "closed"},
+          {make_quantity(DryTouch<facing, PorousShut<facing>>{shut, number, component}), at.shut, scale,
+           "shut"}};
     };
     std::vector<Measure> result{{"mismatch_across", wet(FilmNumber::across)},
                                 {"mismatch_along", wet(FilmNumber::along)},
@@ -163,7 +165,8 @@ class PorousContact final : public Coupling {
                                 {"body_outflow", wet(FilmNumber::body), MeasureOf::integral},
                                 {"gap", touching(TouchNumber::gap), MeasureOf::least},
                                 {"contact_area", touching(TouchNumber::touches), MeasureOf::integral},
-                                {"contact_pressure", touching(TouchNumber::pressure), MeasureOf::greatest}};
+                                {"contact_pressure", touching(TouchNumber::pressure), MeasureOf::greatest},
+                                {"effective_pressure", touching(TouchNumber::effective), MeasureOf::least}};
     if constexpr (facing == Facing::porous)
       result.push_back(
           {"seepage_through",
@@ -190,7 +193,7 @@ class PorousContact final : public Coupling {
   [[nodiscard]] static Places places(const CouplingSides& sides) {
     const bool porous = is_porous(sides, 2);
     return {facing(free_operands, porous), facing(free_operands, porous, 3),
-            porous ? facing(covered_operands, true) : covered_operands};
+            facing(covered_operands, porous)};
   }
   [[nodiscard]] Seal seal() const {
     const Parameters& seal = parameters_.object("seal");
@@ -220,9 +223,12 @@ class PorousContact final : public Coupling {
   template <Facing facing>
   [[nodiscard]] PorousFilm<facing> film(const CouplingSides& sides) const {
     const Parameters& near = parameters_.object("near_slip");
-    return {flow_of(sides), body(sides),
+    return {flow_of(sides),
+            body(sides),
             Slip{0, near.number("factor"), near.has("reach") ? near.number("reach") : 0.0},
-            parameters_.number("alpha"), ties_of(parameters_)};
+            parameters_.number("alpha"),
+            ties_of(parameters_),
+            fades()};
   }
   template <Facing facing>
   [[nodiscard]] PorousClosed<facing> closed(const CouplingSides& sides) const {
@@ -259,6 +265,9 @@ void declare_porous_contact(Registry& registry) {
         "least gap; below 0 an overlap, infinite where nothing is opposite"},
        {Published::As::series, "contact_area", "m^(d-1)", "in touch"},
        {Published::As::series, "contact_pressure", "Pa", "greatest pressure of contact"},
+       {Published::As::series, "effective_pressure", "Pa",
+        "where they touch the least of what the skeletons carry, the pressure of contact less that of the "
+        "pores; below 0 the pores would push them apart; infinite where nothing touches"},
        {Published::As::series, "contact_force.x", "N", "force of contact on the body"},
        {Published::As::series, "force.x", "N", "force of contact and fluid on the body"},
        {Published::As::series, "contact_force.y", "N", "force of contact on the body"},

@@ -16,6 +16,9 @@
 /// q')/2 in both bodies, each look integrates its own half (7.21), (7.23). Free points are those of `fpi`,
 /// the gap infinite; closed ones are dry, F is that of the nearest wet point; covered ones, where nothing is
 /// known of what lies outside, are sealed and free of load.
+///
+/// Closed points have no fluid outside that would fill a gap as it opens: the pores do, they lose its rate g'
+/// and resist it, q^ = g', p^ = p + c (q - g'). In touch g' is next to nothing, and they are sealed.
 namespace seam::fsci {
 
 using FacingDisplacement = Vector<5>;
@@ -89,11 +92,10 @@ Exchange<T> exchange(const Seal& seal, const T& alpha, const T& stress, const T&
 }
 
 /// The same at a dry point between pores, of which the fluid's film sees nothing. @param mean of both
-/// pressures
+/// pressures @param opening g', of which each side fills a half, and each look a half of that
 template <class T>
-Exchange<T> between_pores(const T& pull, const T& mean, const T& seepage) {
-  const T half = 0.5 * seepage;
-  return {pull, T(0.0), half, mean, half};
+Exchange<T> between_pores(const T& pull, const T& mean, const T& seepage, const T& opening) {
+  return {pull, T(0.0), 0.5 * seepage + 0.25 * opening, mean, 0.5 * seepage - 0.25 * opening};
 }
 
 /// A porous body's own part of what its kernels read.
@@ -178,6 +180,9 @@ struct PorousFilm {
   Slip slip;     ///< near the other surface
   double alpha;  ///< of Beavers and Joseph; infinite: no slip
   Ties ties;
+  /// Between pores: what is left of a film where points count as dry has the pressure of the pores, since it
+  /// stays open to them, thesis (7.30); else that of the fluid beside it, (7.29).
+  bool fades = false;
 
   /// @param x side 0's point, normal out of the fluid
   template <int dim, class T, class G>
@@ -190,9 +195,9 @@ struct PorousFilm {
     const T speed = -1.0 * dot(velocity - s.rate(Displacement{}), n);
     T sealed(0.0);
     if constexpr (facing == Facing::porous) {
-      if (body.seal.is_dry(x, start<dim, T, G>(x, s)))
+      if (plain(x.gap) <= 0 || (!fades && body.seal.is_dry(x, start<dim, T, G>(x, s))))
         return between_pores<T>(T(stress + penalty * speed), PorousSide::mean_pressure<facing, T>(s),
-                                state.seepage);
+                                state.seepage, T(0.0));
     } else {
       sealed = body.seal.template closed<dim, T, G>(x, start<dim, T, G>(x, s));
     }
@@ -249,45 +254,67 @@ struct PorousFilm {
   }
 };
 
-/// A sealed surface: p^ = p + c q, and nothing passes; c q holds the normal velocity of the fluid in the
-/// pores.
-template <int dim, class T, class G, class S, class R>
-void add_seal(const PorousSide& body, const Point<dim, G>& x, const S& s, R& r) {
+/// p^ of a sealed surface, where nothing passes but what fills a gap: c (q - g') holds the normal velocity of
+/// the fluid in the pores.
+template <int dim, class T, class G, class S>
+T sealed_pressure(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& opening) {
   const auto state = body.template state<dim, T, G>(x, s);
-  T pressure = state.pressure;
-  if (body.seal.kind == Seal::Kind::resistance)
-    pressure += body.template resistance<dim, T, G>(x, state) * state.seepage;
-  r.value(PoreVelocity{}) -= pressure * x.normal;
+  if (body.seal.kind != Seal::Kind::resistance) return state.pressure;
+  return state.pressure + body.template resistance<dim, T, G>(x, state) * (state.seepage - opening);
+}
+
+/// g' where the bodies are next to each other: what overlaps has nothing to fill, and what is farther away
+/// than films that come back lies outside of the fluid's mesh. In between it fades.
+template <int dim, class T, class G, class S>
+T opening_of(const Point<dim, G>& x, const S& s) {
+  const double ahead = 5e-3 * x.cell_size, behind = 1e-4 * x.cell_size, gap = plain(x.gap);
+  if (gap <= -behind || gap >= ahead) return T(0.0);
+  T part(1.0);
+  if (gap < 0) part += (1 / behind) * T(x.gap);
+  if (gap > 0.5 * ahead) part -= (2 / ahead) * (T(x.gap) - 0.5 * ahead);
+  const Vec<dim, T> apart = s.rate(FacingDisplacement{}) - s.rate(Displacement{});
+  return T(-1.0 * part * dot(apart, x.normal));
+}
+
+/// What the pores of a closed surface have for the fluid's traction, thesis (7.30).
+template <Facing facing, int dim, class T, class G, class S>
+T pull_of_pores(const PorousSide& body, const Point<dim, G>& x, const S& s) {
+  if constexpr (facing == Facing::porous)
+    return T(-PorousSide::mean_pressure<facing, T>(s));
+  else
+    return T(-sealed_pressure<dim, T, G>(body, x, s, opening_of<dim, T, G>(x, s)));
 }
 
 /// min(F, S) on the mixture, and pores that are sealed, or open to those opposite.
 template <Facing facing, int dim, class T, class G, class S, class R>
-void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& pull, R& r) {
+void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& pull, const T& opening,
+             R& r) {
   const T contact = body.template pull<facing, dim, T, G>(x, s);
   r.value(Displacement{}) += (plain(contact) < plain(pull) ? contact : pull) * x.normal;
   if constexpr (facing == Facing::porous) {
     if (body.seal.meets(x)) {
       const Exchange<T> passing = between_pores<T>(pull, PorousSide::mean_pressure<facing, T>(s),
-                                                   body.template state<dim, T, G>(x, s).seepage);
+                                                   body.template state<dim, T, G>(x, s).seepage, opening);
       r.value(PoreVelocity{}) -= passing.pore_pressure * x.normal;
       r.value(PorePressure{}) += passing.out_of_pores;
       r.value(FacingPressure{}) -= passing.into_facing;
       return;
     }
   }
-  add_seal<dim, T, G>(body, x, s, r);
+  r.value(PoreVelocity{}) -= sealed_pressure<dim, T, G>(body, x, s, opening) * x.normal;
+  r.value(PorePressure{}) += opening;
 }
 
 template <Facing facing>
 struct DrySlots {
   template <class... More>
-  using Reads = Slots<More...>;
-  using Tests = Slots<Value<Displacement>, Value<PoreVelocity>>;
+  using Reads = Slots<More..., Rate<FacingDisplacement>>;
+  using Tests = Slots<Value<Displacement>, Value<PoreVelocity>, Value<PorePressure>>;
 };
 template <>
 struct DrySlots<Facing::porous> {
   template <class... More>
-  using Reads = Slots<More..., Gradient<FacingDisplacement>, Value<FacingPressure>>;
+  using Reads = Slots<More..., Rate<FacingDisplacement>, Gradient<FacingDisplacement>, Value<FacingPressure>>;
   using Tests = Slots<Value<Displacement>, Value<PoreVelocity>, Value<PorePressure>, Value<FacingPressure>>;
 };
 
@@ -310,14 +337,14 @@ struct PorousClosed {
     const T tip = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
                                               s.value(Pressure{}), s.rate(TipDisplacement{}));
     if (!fades) return tip;
-    const T pores = PorousSide::mean_pressure<facing, T>(s);
+    const T pores = pull_of_pores<facing, dim, T, G>(body, x, s);
     Vec<dim, T> way = s.value(Displacement{});
     way += x.partner_position - x.position;
     const T square = dot(way, way);
     if (plain(square) <= 0) return tip;
-    if (plain(square) >= x.cell_size * x.cell_size) return -pores;
+    if (plain(square) >= x.cell_size * x.cell_size) return pores;
     const T part = (1 / x.cell_size) * sqrt(square);
-    return (1 - part) * tip - part * pores;
+    return (1 - part) * tip + part * pores;
   }
   template <int dim, class T, class G>
   [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
@@ -326,7 +353,8 @@ struct PorousClosed {
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
+    const T opening = fades ? opening_of<dim, T, G>(x, s) : T(0.0);
+    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), opening, r);
   }
 };
 
@@ -341,8 +369,8 @@ struct PorousShut {
   bool fades;  ///< F is -p, thesis (7.30); else nothing
 
   template <int dim, class T, class G>
-  [[nodiscard]] T of_fluid(const Point<dim, G>&, const Trial<dim, T, Reads>& s) const {
-    return fades ? T(-PorousSide::mean_pressure<facing, T>(s)) : T(0.0);
+  [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    return fades ? pull_of_pores<facing, dim, T, G>(body, x, s) : T(0.0);
   }
   template <int dim, class T, class G>
   [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
@@ -350,7 +378,8 @@ struct PorousShut {
   }
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), r);
+    const T opening = fades ? opening_of<dim, T, G>(x, s) : T(0.0);
+    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), opening, r);
   }
 };
 
@@ -362,7 +391,7 @@ struct PorousCovered {
 
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    add_seal<dim, T, G>(body, x, s, r);
+    r.value(PoreVelocity{}) -= sealed_pressure<dim, T, G>(body, x, s, T(0.0)) * x.normal;
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "porous_contact_kernels.hpp"
 
@@ -51,18 +52,26 @@ struct FilmMeasure {
 };
 
 enum class TouchNumber {
-  gap,       ///< m
-  touches,   ///< 1 or 0
-  pressure,  ///< -S where they touch, Pa
-  traction   ///< of this, on the body, a component, Pa
+  gap,        ///< m
+  touches,    ///< 1 or 0
+  pressure,   ///< -S where they touch, Pa
+  effective,  ///< of this what is more than the pressure in the pores, infinite elsewhere, Pa
+  traction    ///< -S n, on the body, a component, Pa
 };
 
-inline double touch(TouchNumber number, double gap, double contact, double of_fluid, double normal) {
-  if (number == TouchNumber::gap) return gap;
-  if (contact >= of_fluid) return 0;
-  if (number == TouchNumber::touches) return 1;
-  return number == TouchNumber::pressure ? -contact : -contact * normal;
-}
+/// What is known at a point that faces another body, Pa and m.
+struct Touch {
+  double gap, contact, of_fluid, of_pores;
+  [[nodiscard]] double operator()(TouchNumber number, double normal) const {
+    if (number == TouchNumber::gap) return gap;
+    const bool touches = contact < of_fluid;
+    if (number == TouchNumber::effective)
+      return touches ? -contact - of_pores : std::numeric_limits<double>::infinity();
+    if (!touches) return 0;
+    if (number == TouchNumber::touches) return 1;
+    return number == TouchNumber::pressure ? -contact : -contact * normal;
+  }
+};
 
 template <Facing facing>
 struct NearTouch {
@@ -73,13 +82,15 @@ struct NearTouch {
   int component = 0;
   template <int dim>
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
-    *value = touch(number, x.gap, film.body.template pull<facing, dim, double, double>(x, s),
-                   film.template passes<dim, double, double>(x, s).pull, x.normal[component]);
+    const Touch touch{x.gap, film.body.template pull<facing, dim, double, double>(x, s),
+                      film.template passes<dim, double, double>(x, s).pull,
+                      PorousSide::mean_pressure<facing, double>(s)};
+    *value = touch(number, x.normal[component]);
   }
 };
 
 /// At closed or shut points.
-template <class Kernel>
+template <Facing facing, class Kernel>
 struct DryTouch {
   using Reads = typename Kernel::Reads;
   static constexpr int values(int) { return 1; }
@@ -88,8 +99,10 @@ struct DryTouch {
   int component = 0;
   template <int dim>
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
-    *value = touch(number, x.gap, kernel.template of_bodies<dim, double, double>(x, s),
-                   kernel.template of_fluid<dim, double, double>(x, s), x.normal[component]);
+    const Touch touch{x.gap, kernel.template of_bodies<dim, double, double>(x, s),
+                      kernel.template of_fluid<dim, double, double>(x, s),
+                      PorousSide::mean_pressure<facing, double>(s)};
+    *value = touch(number, x.normal[component]);
   }
 };
 
@@ -101,8 +114,11 @@ struct SeepageThrough {
   Kernel kernel;
   template <int dim>
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
-    *value =
-        kernel.body.seal.meets(x) ? 0.5 * kernel.body.template state<dim, double, double>(x, s).seepage : 0.0;
+    *value = 0;
+    if (!kernel.body.seal.meets(x)) return;
+    const double seepage = kernel.body.template state<dim, double, double>(x, s).seepage;
+    *value = between_pores<double>(0, 0, seepage, kernel.fades ? opening_of<dim, double, double>(x, s) : 0.0)
+                 .into_facing;
   }
 };
 

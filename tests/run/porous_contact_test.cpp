@@ -270,3 +270,127 @@ TEST_CASE("without permeability a porous stamp falls as the elastic one that kee
     }
   CHECK(at(drained, "gap_0", 10) > 1.15 * at(undrained, "gap_0", 10));
 }
+
+TEST_CASE(
+    "a body that is half solid, half porous rests in a fluid under pressure, and touches on any ranks") {
+  const std::string coarse =
+      " --set checks=[] --set output.statistics={} --set output.fields=false --set parameters.n=10 --set "
+      "parameters.m=4 --set ";
+  SECTION("exactly, whatever its halves make of the pressure") {
+    const ShippedRun rest(
+        "contact/half_porous_stamp",
+        coarse +
+            "parameters.load=0 --set parameters.pressure=3 --set 'time={theta: 1, end: 4e4, "
+            "step: {initial: 1e4}}'");
+    for (const char* pressure : {"beside", "below", "pores"})
+      CHECK(rest(pressure) == Approx(3).epsilon(0).margin(1e-9));
+    CHECK(rest("water.dissipation") < 1e-20);
+    CHECK(std::abs(rest("carried")) < 1e-9);
+    CHECK(rest("corner.y") > 1e-4);
+  }
+  SECTION("as on one") {
+    const std::string steps = coarse + "'time={theta: 1, end: 3, step: {initial: 0.05}}'";
+    const ShippedRun one("contact/half_porous_stamp", steps),
+        three("contact/half_porous_stamp", steps, "mpirun --oversubscribe -np 3 ");
+    REQUIRE(one.series("skin_right.contact_force.y").back() > 1);
+    for (const char* name : {"corner.y", "skin_right.contact_force.y", "skin_left.force.y", "pores"}) {
+      CAPTURE(name);
+      const std::vector<double> here = one.series(name), there = three.series(name);
+      REQUIRE(here.size() == there.size());
+      double most = 0;
+      for (const double x : here) most = std::max(most, std::abs(x));
+      for (std::size_t k = 0; k < here.size(); ++k) CHECK(std::abs(here[k] - there[k]) < 1e-6 * most);
+    }
+  }
+}
+
+TEST_CASE("what is missing around a porous body that may touch is said") {
+  const auto said = [](const std::string& change, const std::string& to) {
+    std::string text = two_columns;
+    const std::size_t at = text.find(change);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, change.size(), to);
+    const Folder folder;
+    return seam("check " + folder.file("scene.yaml", text)).output;
+  };
+  const std::string look = "  - {type: porous_contact_in_fluid, on: up}\n";
+  CHECK_THAT(said("title: Two", "title: Two"), !Catch::Contains("may touch") && !Catch::Contains("only '"));
+  CHECK_THAT(said(look, ""),
+             Catch::Contains("'upper' may touch 'lower', which the field 'water' knows nothing of"));
+  CHECK_THAT(
+      said(look, "  - {type: contact_in_fluid, on: up, stress: other}\n"),
+      Catch::Contains("'upper' and 'lower' are porous, and only 'upper' looks at the other") &&
+          Catch::Contains(
+              "`contact_in_fluid` knows of no pores, and those of 'lower' are open to a pressure of 0"));
+  CHECK_THAT(said("boundaries: [y_min, x_min, x_max]}",
+                  "boundaries: [y_min, x_min, x_max]}\n  foot: {type: "
+                  "embedded, field: water, body: upper, boundaries: y_min}"),
+             Catch::Contains("two interfaces have the same part of the surface of 'upper'"));
+}
+
+TEST_CASE("flat porous faces come off each other again, and the gap fills through the pores") {
+  // Pressed together by the fluid, then parted by what flows in at the foot of the lower one.
+  const std::string text = R"yaml(
+title: Two porous blocks that a flow presses together and parts
+dimension: 2
+plugins: [cutfem_fluid, solid, poroelasticity, nitsche_fsci]
+parameters: {turn: 0.5, hair: 1e-4}
+meshes:
+  box: {grid: {from: [0, -0.237], to: [0.25, 0.763], cells: [2, 8]}}
+  a: {grid: {from: [-hair, 0.01], to: [0.25 + hair, 0.41], cells: [2, 4]}}
+  b: {grid: {from: [-hair, -0.6], to: [0.25 + hair, 0], cells: [2, 6]}}
+fields:
+  water:
+    type: cutfem_fluid
+    mesh: box
+    density: 1e-6
+    convection: false
+    viscosity: 0.01
+    fix_pressure: never
+    boundary:
+      - {on: [x_min, x_max], slip: true}
+      - {on: y_max, traction: [0, "t < turn ? -10 : 0"]}
+  a:
+    type: porous_solid
+    mesh: a
+    material: {type: neo_hookean, young: 500, poisson: 0}
+    viscosity: 0.01
+    porosity: {initial: 0.5, bulk: 1e6}
+    permeability: [5e-5]
+    boundary: [{on: [x_min, x_max], displacement: [0, null], velocity: [0, null]}]
+  b:
+    type: porous_solid
+    mesh: b
+    material: {type: neo_hookean, young: 1000, poisson: 0}
+    viscosity: 0.01
+    porosity: {initial: 0.5, bulk: 1e6}
+    permeability: [2e-4]
+    boundary:
+      - {on: [x_min, x_max], displacement: [0, null], velocity: [0, null]}
+      - {on: y_min, displacement: [0, 0], pore_pressure: "t < turn ? 0 : 10"}
+interfaces:
+  a: {type: embedded_contact, field: water, body: a, to: b}
+  b: {type: embedded_contact, field: water, body: b, to: a, boundaries: [y_max, x_min, x_max]}
+coupling:
+  - {type: porous_contact_in_fluid, on: a, stress: own, extension: pore_pressure}
+  - {type: porous_contact_in_fluid, on: b, stress: other, extension: pore_pressure}
+time: {theta: 1, end: 0.8, step: {initial: 0.01}}
+output:
+  fields: false
+  probes: {inflow: {field: water, on: y_max, quantity: velocity, component: y}}
+)yaml";
+  const Run run(text);
+  INFO(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const std::vector<double> time = run.series("time"), gap = run.series("a.gap"),
+                            inflow = run.series("inflow"), dropped = run.series("water.dropped_volume");
+  const auto row = [&](double wanted) {
+    return std::ranges::lower_bound(time, wanted - 1e-9) - time.begin();
+  };
+  // Darcy through both, 10 Pa over the heights times viscosity over permeability; then through the lower one.
+  const double through = 10 / (0.01 * (0.4 / 5e-5 + 0.6 / 2e-4)), rises = 10 / (0.01 * 0.6 / 2e-4);
+  CHECK(inflow[row(0.49)] == Approx(-0.25 * through).epsilon(0.01));
+  CHECK(gap[row(0.49)] < 1e-4);
+  CHECK((gap.back() - gap[row(0.7)]) / (time.back() - time[row(0.7)]) == Approx(rises).epsilon(0.005));
+  CHECK(dropped.back() == 0);
+}

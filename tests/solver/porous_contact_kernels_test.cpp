@@ -109,9 +109,9 @@ void check_open_pores() {
   using Kernel = PorousShut<Facing::porous>;
   const auto law = std::make_shared<NoStress>();
   Kernel kernel{{{std::make_shared<GivenPores>(), {}, false}, {law, law, 0.5}, 3, {}}, true};
-  // grad u, du/dt, v, p; grad u', p'
-  const double in[] = {0.1, 0.2, -0.1, 0.3, 0.5, -0.2, 0.9, 0.7, 1.7, 0.05, 0.1, -0.2, 0.1, 0.6};
-  REQUIRE(Kernel::Reads::size(2) == 14);
+  // grad u, du/dt, v, p; du'/dt, grad u', p'
+  const double in[] = {0.1, 0.2, -0.1, 0.3, 0.5, -0.2, 0.9, 0.7, 1.7, 0.3, -0.1, 0.05, 0.1, -0.2, 0.1, 0.6};
+  REQUIRE(Kernel::Reads::size(2) == 16);
   const auto at = [&](Whose whose) {
     kernel.body.bodies.stress = whose;
     std::array<double, 6> out{};
@@ -137,12 +137,59 @@ void check_open_pores() {
   CHECK(apart[2] == Approx((1.7 + 3 * 0.5 / 0.02 * seepage) * 0.6));
   CHECK(apart[4] == 0);
   CHECK(apart[5] == 0);
-  const Exchange<double> dry = between_pores<double>(-2, mean, seepage);
+  const Exchange<double> dry = between_pores<double>(-2, mean, seepage, 0);
   CHECK(dry.pull == -2);
   CHECK(dry.into_fluid == 0);
   CHECK(dry.out_of_pores == out[4]);
   CHECK(dry.into_facing == -out[5]);
   CHECK(dry.pore_pressure == Approx(mean));
+}
+
+/// Pores fill a gap that opens, and resist it: p^ = p + c (q - g'), of which power is lost.
+void check_opening() {
+  Point<2> x;
+  x.normal = {{-0.6, -0.8}};
+  x.cell_size = 0.5;
+  x.constant = {200, 50};
+  const auto law = std::make_shared<NoStress>();
+  const auto at = [&]<Facing facing>(std::integral_constant<Facing, facing>, bool fades, double gap) {
+    using Kernel = PorousShut<facing>;
+    const Kernel kernel{
+        {{std::make_shared<GivenPores>(), {}, false}, {law, law, 0.5}, 3, {Seal::Kind::resistance, 0, 0}},
+        fades};
+    std::vector<double> in(Kernel::Reads::size(2), 0.0), out(Kernel::Tests::size(2), 0.0);
+    const auto set = [&]<class R>(R, std::initializer_list<double> values) {
+      std::copy(values.begin(), values.end(), &in[Kernel::Reads::template offset<R>(2)]);
+    };
+    set(Rate<Displacement>{}, {0.5, -0.2});
+    set(Value<PoreVelocity>{}, {0.9, 0.7});
+    set(Value<PorePressure>{}, {9});
+    set(Rate<FacingDisplacement>{}, {0.8, 0.1});
+    if constexpr (facing == Facing::porous) set(Value<FacingPressure>{}, {0.6});
+    x.gap = gap;
+    Test<2, double, typename Kernel::Tests> r{out.data()};
+    kernel.template operator()<2, double, double>(x, Trial<2, double, typename Kernel::Reads>{in.data()}, r);
+    return out;
+  };
+  const auto tight = std::integral_constant<Facing, Facing::tight>{};
+  const auto porous = std::integral_constant<Facing, Facing::porous>{};
+  const double seepage = 0.4 * ((0.9 - 0.5) * 0.6 + (0.7 + 0.2) * 0.8), opening = 0.3 * 0.6 + 0.3 * 0.8,
+               c = 3 * 0.5 / 0.02;
+  // u, v, p; S = 0.5 * 200 g is more than F.
+  const auto open = at(tight, true, 1e-4);
+  CHECK(open[4] == Approx(opening));
+  CHECK(open[2] == Approx((9 + c * (seepage - opening)) * 0.6));
+  CHECK(open[0] == Approx(open[2]));
+  // Half of it where it fades, nothing in an overlap, far away, or where the fluid at the edge decides.
+  CHECK(at(tight, true, 0.75 * 5e-3 * 0.5)[4] == Approx(opening / 2));
+  CHECK(at(tight, true, -0.5 * 1e-4 * 0.5)[4] == Approx(opening / 2));
+  for (const double gap : {-1e-3, 5e-3}) CHECK(at(tight, true, gap)[4] == 0);
+  CHECK(at(tight, false, 1e-4)[4] == 0);
+  CHECK(at(tight, false, 1e-4)[2] == Approx((9 + c * seepage) * 0.6));
+  // Each side fills a half, and each look says so of both.
+  const auto both = at(porous, true, 1e-4);
+  CHECK(both[4] == Approx(seepage / 2 + opening / 4));
+  CHECK(both[5] == Approx(-seepage / 2 + opening / 4));
 }
 
 /// A wet point that counts as dry: what leaves the pores enters those opposite, and not the film.
@@ -154,7 +201,7 @@ void check_dry_film() {
   x.gap = 1e-3;
   const auto law = std::make_shared<NoStress>();
   // As narrow at the start of the step, by as much as nothing has moved since.
-  const Kernel kernel{
+  Kernel kernel{
       {1, 3, false},
       {{std::make_shared<GivenPores>(), {}, false}, {law, law, 0.5}, 3, {Seal::Kind::resistance, 0, 2e-3}},
       {},
@@ -177,6 +224,17 @@ void check_dry_film() {
   CHECK(r.value(PoreVelocity{}).data[0] == Approx((1.7 + 0.6) / 2 * 0.6));
   // The fluid's balance has v - du/dt alone, along the body's normal.
   CHECK(*r.value(Pressure{}).data == Approx(-(0.5 * 0.6 - 0.2 * 0.8)));
+  // Where the pores' pressure stands for the fluid's in contact the film stays open, but for none at all.
+  const auto passing = [&](bool fades, double gap) {
+    kernel.fades = fades;
+    x.gap = gap;
+    return kernel.passes<2, double, double>(x, Trial<2, double, Kernel::Reads>{in.data()});
+  };
+  CHECK(passing(false, 1e-3).into_fluid == 0);
+  CHECK(passing(true, 1e-3).into_facing == 0);
+  CHECK(passing(true, 1e-3).into_fluid == passing(true, 1e-3).out_of_pores);
+  CHECK(std::abs(passing(true, 1e-3).into_fluid) > 0.1);
+  CHECK(passing(true, -1e-3).into_fluid == 0);
 }
 
 }  // namespace
@@ -186,5 +244,6 @@ TEST_CASE("a seal takes power, loses no fluid, and closes within its width") {
   check_width();
   check_tight();
   check_open_pores();
+  check_opening();
   check_dry_film();
 }

@@ -120,7 +120,7 @@ Schema EmbeddedContactInterface::schema() {
 std::vector<InterfacePart> EmbeddedContactInterface::build(InterfaceSetup& setup) const {
   const Surfaces both = surfaces(parameters_, "body", setup, 1, backing_of(parameters_));
   FieldCut& cut = setup.cut(0);
-  const int number = cut.add_body([own = both.own](double) { return own->now(); });
+  const int number = cut.add_body([own = both.own](double) { return own->now(); }, both.own->body().name());
   if (setup.sides[1]->law("pores", 0)) cut.keep_at(number);
   const auto surface = std::make_shared<EmbeddedSurface>(*setup.sides[0], cut, number, both.own, both.other,
                                                          both.range, facet_degree(setup));

@@ -111,7 +111,7 @@ std::vector<InterfacePart> EmbeddedInterface::build(InterfaceSetup& setup) const
   auto surface = std::make_shared<const BodySurface>(*setup.sides[1], parameters_.names("boundaries"),
                                                      displacement, backing_of(parameters_));
   FieldCut& cut = setup.cut(0);
-  const int number = cut.add_body([surface](double) { return surface->now(); });
+  const int number = cut.add_body([surface](double) { return surface->now(); }, setup.sides[1]->name());
   return {
       {"", std::make_shared<EmbeddedBoundary>(*setup.sides[0], cut, number, facet_degree(setup), surface)}};
 }

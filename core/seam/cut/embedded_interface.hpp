@@ -21,6 +21,9 @@ class EmbeddedInterface final : public Interface {
   [[nodiscard]] std::vector<std::string> fields() const override {
     return {parameters_.text("field"), parameters_.text("body")};
   }
+  [[nodiscard]] std::vector<std::string> boundaries(int side) const override {
+    return side == 1 ? parameters_.names("boundaries") : std::vector<std::string>{};
+  }
   [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:

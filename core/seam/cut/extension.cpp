@@ -222,6 +222,16 @@ void Extension::add_means(int number, const std::vector<std::pair<int, int>>& pa
   }
 }
 
+void Extension::add_rest(int number, const std::vector<std::pair<int, int>>& parts, double weight,
+                         System& system) {
+  const Block& block = field_->blocks()[number];
+  for (const auto& [cell, part] : parts) {
+    const int* nodes = field_->cell_nodes(number, cell, part);
+    for (int a = 0; a < block.space->nodes_per_cell(); ++a)
+      if (!block.known[nodes[a]]) add(block, nodes[a], nodes[a], weight, system);
+  }
+}
+
 void Extension::extend_block(int number) {
   Block& block = field_->blocks()[number];
   const Space& space = *block.space;
@@ -233,7 +243,7 @@ void Extension::extend_block(int number) {
     Field& scalar = carrier(space.order());
     scalar.set_layout(field_->layout());
     scalar.occupy(field_->active_cells(), field_->cut());
-    for (const bool with_means : {false, true}) {
+    for (const Help help : {Help::none, Help::means, Help::rest}) {
       // Few nodes come alive in a step: every rank solves for all of them, and all get the same bits.
       System system;
       system.numbers = numbers_on(*field_, space);
@@ -243,10 +253,12 @@ void Extension::extend_block(int number) {
       // Where a pocket opens that hangs on to the rest by a node or two, jumps do not say what its other
       // nodes are: there they become like those of their cells. Small, so that it decides only what the jumps
       // leave open.
-      if (with_means) add_means(number, active_parts(), 1e-3 * weight, system);
+      if (help != Help::none) add_means(number, active_parts(), 1e-3 * weight, system);
+      // A film that opens where nothing of the field was is at rest.
+      if (help == Help::rest) add_rest(number, unreached, 1e-6 * weight, system);
       system.gather(communicator);
       if (set_states(block, system)) break;
-      if (with_means)
+      if (help == Help::rest)
         throw StepRefused(
             fmt::format("field '{}': known states do not determine those of {} nodes that came alive",
                         field_->name(), system.index.size()));

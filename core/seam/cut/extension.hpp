@@ -36,6 +36,10 @@ class Extension {
   static void add(const Block& block, int row, int column, double value, System& system);
   /// Makes new nodes of these parts of cells like the others there.
   void add_means(int block, const std::vector<std::pair<int, int>>& parts, double weight, System& system);
+  /// Draws new nodes of these parts of cells to 0.
+  void add_rest(int block, const std::vector<std::pair<int, int>>& parts, double weight, System& system);
+  /// What decides where the jumps leave something open.
+  enum class Help { none, means, rest };
   /// @return false when the system does not determine all new nodes
   static bool set_states(const Block& block, const System& system);
   [[nodiscard]] Field& carrier(int order);

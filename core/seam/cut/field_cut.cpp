@@ -13,6 +13,7 @@
 #include "seam/base/diagnostics.hpp"
 #include "seam/base/plugin_fault.hpp"
 #include "seam/cut/part_sets.hpp"
+#include "seam/cut/sound_surfaces.hpp"
 #include "seam/state/state_store.hpp"
 
 namespace seam {
@@ -44,8 +45,9 @@ FieldCut::FieldCut(Field& field)
   if (field.sets() > 1) sets_ = std::make_unique<PartSets>(field);
 }
 
-int FieldCut::add_body(Body body) {
+int FieldCut::add_body(Body body, const std::string& of) {
   bodies_.push_back(std::move(body));
+  fields_of_bodies_.push_back(of);
   return static_cast<int>(bodies_.size()) - 1;
 }
 
@@ -92,6 +94,7 @@ bool FieldCut::update(double time) {
 
 /// What cannot be cut at the start is a mistake; later it is where an iteration, or a step, went astray.
 void FieldCut::cut(const std::vector<Surface>& surfaces) {
+  if (!was_cut_) refuse_unsound_surfaces(field_->mesh(), surfaces, fields_of_bodies_);
   try {
     mesh_.cut(surfaces);
   } catch (const PluginFault&) {
@@ -233,7 +236,7 @@ double FieldCut::trace_size(int cell) const {
 
 /// Per part.
 std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
-  std::vector<double> faces(parts.volume.size(), 0.0);
+  std::vector<double> faces = draining_cells(parts, closed_film);
   CutRule rule;
   for (const std::string& name : open_boundaries_)
     for (const CellFace& face : field_->mesh().boundary(name)) {
@@ -245,27 +248,24 @@ std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
       }
       ++faces[part];
     }
-  if (!draining_.empty()) {
-    const std::vector<double> cells = draining_cells(parts);
-    std::ranges::transform(faces, cells, faces.begin(), std::plus<>());
-  }
   field_->mesh().communicator().sum(faces);
   std::vector<char> open;
   for (const double count : faces) open.push_back(count > 0 ? 1 : 0);
   return open;
 }
 
-/// Owned cells of each part in which it is bounded by a body that lets it drain, and is no thinner than a
-/// film that has closed.
-std::vector<double> FieldCut::draining_cells(const WetParts& parts) const {
+/// Owned cells of each part in which it is bounded by a body that lets it drain, and is no thinner than
+/// this, in diameters of a cell.
+std::vector<double> FieldCut::draining_cells(const WetParts& parts, double film) const {
   std::vector<double> result(parts.volume.size(), 0.0);
+  if (draining_.empty()) return result;
   InterfaceRule surface;
   for (int c = 0; c < field_->mesh().owned_cells(); ++c) {
     if (parts.part[c] < 0 || mesh_.state(c) != CellState::cut) continue;
     mesh_.interface_rule(c, 1, surface);
     if (std::ranges::none_of(surface.body, [&](int body) { return draining_.contains(body); })) continue;
     const double area = std::accumulate(surface.weight.begin(), surface.weight.end(), 0.0);
-    if (2 * mesh_.wet_volume(c) > closed_film * field_->mesh().diameter(c) * area) ++result[parts.part[c]];
+    if (2 * mesh_.wet_volume(c) > film * field_->mesh().diameter(c) * area) ++result[parts.part[c]];
   }
   return result;
 }
@@ -281,10 +281,12 @@ std::vector<double> FieldCut::count(Decision made, const WetParts& parts) const 
 
 /// The cells to be dropped, and for later cuts what becomes of all others. There is no state that a dropped
 /// part could start from: however much it grows it stays out until it joins a kept one, from which it is then
-/// filled, one layer of cells a step.
+/// filled, one layer of cells a step. A film that drains into a body starts from rest when it opens again.
 std::vector<int> FieldCut::decide() {
   const WetParts parts = mesh_.find_parts();
   const std::vector<char> open = open_parts(parts);
+  std::vector<double> drains = draining_cells(parts, open_film);
+  field_->mesh().communicator().sum(drains);
   const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
   bool waits = false;
@@ -294,7 +296,7 @@ std::vector<int> FieldCut::decide() {
     decide_on(c, Decision::body);
     if (part < 0) continue;
     const bool is_large = parts.cells[part] >= smallest_kept || open[part];
-    const bool is_reached = dropped[part] == 0 || (kept[part] > 0 && has_state(c));
+    const bool is_reached = dropped[part] == 0 || drains[part] > 0 || (kept[part] > 0 && has_state(c));
     decide_on(c, is_large && is_reached ? Decision::kept : Decision::dropped);
     if (decision(c) == Decision::kept) continue;
     cells.push_back(c);

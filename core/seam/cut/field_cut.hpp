@@ -39,11 +39,15 @@ class FieldCut {
 
   /// The surface of a body at a time; must give the same on all ranks.
   using Body = MovingSurface;
+  /// @param of the field whose mesh the body is; "" where it is none's
   /// @return the body's number, as InterfaceRule::body has it
-  int add_body(Body body);
+  int add_body(Body body, const std::string& of = "");
 
   /// In diameters of a cell, the thickness of a film between bodies that has closed.
   static constexpr double closed_film = 1e-5;
+  /// The same of one that has opened again: were it that which closes, films between flat bodies in touch
+  /// would come and go.
+  static constexpr double open_film = 1e-3;
   /// Parts that reach these boundaries are never dropped.
   void keep_at(std::vector<std::string> boundaries) { open_boundaries_ = std::move(boundaries); }
   /// The same of parts that this body's surface bounds, which lets through what they hold.
@@ -59,7 +63,8 @@ class FieldCut {
   /// that come alive. A time other than that of the last call begins a step. Occupying the cells is left to
   /// the caller. Collective.
   /// @return false when nothing has changed since the last call
-  /// @throws Error when the bodies cannot be cut out at the start, StepRefused when they cannot later, or
+  /// @throws Error when the bodies cannot be cut out at the start, or end on each other in the mesh
+  /// (refuse_unsound_surfaces), StepRefused when they cannot later, or
   /// when a cell comes alive that no known state reaches
   bool update(double time);
 
@@ -100,9 +105,10 @@ class FieldCut {
   Field* field_;
   CutMesh mesh_;
   std::vector<Body> bodies_;
-  std::vector<Surface> surfaces_;  ///< at the last update
+  std::vector<std::string> fields_of_bodies_;  ///< "" for those of none
+  std::vector<Surface> surfaces_;              ///< at the last update
   std::vector<char> active_;
-  [[nodiscard]] std::vector<double> draining_cells(const WetParts& parts) const;
+  [[nodiscard]] std::vector<double> draining_cells(const WetParts& parts, double film) const;
   std::set<int> draining_;  ///< bodies
   std::vector<std::string> open_boundaries_;
   // In the field's store of states: with those of nodes, all that a cut depends on.

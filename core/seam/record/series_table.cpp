@@ -61,8 +61,9 @@ SeriesDifference largest_difference(const SeriesTable& expected, const SeriesTab
     if (other == found.end() || other->second.size() != values.size()) return {INFINITY, name};
     const double scale = size.at(name);
     for (std::size_t k = 0; k < values.size(); ++k) {
-      const double error = std::abs(other->second[k] - values[k]);
-      const double relative = error == 0 ? 0.0 : worse(0, error / scale);
+      // Infinite is what both say where there is nothing.
+      const bool same = other->second[k] == values[k];
+      const double relative = same ? 0.0 : worse(0, std::abs(other->second[k] - values[k]) / scale);
       if (relative > worst.relative) worst = {relative, name};
     }
   }

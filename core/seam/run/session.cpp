@@ -10,6 +10,7 @@
 #include "seam/base/stopwatch.hpp"
 #include "seam/record/derived.hpp"
 #include "seam/run/constraint_doubts.hpp"
+#include "seam/run/contact_doubts.hpp"
 #include "seam/run/scene_doubts.hpp"
 
 namespace seam {
@@ -110,7 +111,7 @@ void Session::find_conflicts() {
       conflicts.push_back(std::move(later));
   const SceneAtStart scene{scene_,           built_,         state_.results,
                            stepper_.start(), stepper_.end(), stepper_.initial()};
-  for (const auto& find : {scene_doubts, constraint_doubts})
+  for (const auto& find : {scene_doubts, constraint_doubts, contact_doubts})
     for (Diagnostic& doubt : find(scene)) conflicts.push_back(std::move(doubt));
   for (Diagnostic& conflict : conflicts)
     warnings_.warning(std::move(conflict.where), std::move(conflict.message));
