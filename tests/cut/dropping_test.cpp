@@ -282,6 +282,40 @@ TEST_CASE("A part of the field of just two cells is kept, and one of less is not
   }
 }
 
+TEST_CASE("A film that drains is kept wherever its walls are beside mesh lines, until it has closed",
+          "[cut][parts][ranks]") {
+  constexpr double h = 1.0 / 16;
+  const auto dropped = [&](Pond& pond) {
+    pond.cut.begin_step();
+    pond.cut.update(0);
+    return pond.cut.dropped_volume();
+  };
+  // Of the film's walls each in its turn lets it drain; the upper one is a little above a mesh line, or
+  // below.
+  for (int drains = 0; drains < 4; ++drains)
+    for (const double beside : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-5, 1e-4, -1e-12, -1e-8, -1e-4}) {
+      CAPTURE(drains, beside);
+      Pond pond(16);
+      for (int k = 0; k < 4; ++k)
+        pond.cut.add_body([=](double) { return chamber(6.3 * h, 8.6 * h, 7.985 * h, (8 + beside) * h)[k]; });
+      pond.cut.keep_at(drains);
+      CHECK(dropped(pond) == 0);
+    }
+  // In cells; it comes back when it is thicker than it was when it closed.
+  double height = 1e-2;
+  Pond pond(16);
+  for (int k = 0; k < 4; ++k)
+    pond.cut.add_body([&, k](double) { return chamber(6.3 * h, 8.6 * h, 8.1 * h, (8.1 + height) * h)[k]; });
+  for (int k = 0; k < 4; ++k) pond.cut.keep_at(k);
+  for (const auto& [thickness, is_kept] :
+       {std::pair(1e-2, true), std::pair(1e-4, true), std::pair(2e-6, false), std::pair(1e-4, false),
+        std::pair(1e-2, true)}) {
+    CAPTURE(thickness);
+    height = thickness;
+    CHECK(dropped(pond) == Approx(is_kept ? 0 : 2.3 * h * thickness * h).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("The trace size of a cell is its volume over its interface, but no more than four of its lengths",
           "[cut]") {
   constexpr double h = 0.25;

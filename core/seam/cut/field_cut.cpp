@@ -236,7 +236,8 @@ double FieldCut::trace_size(int cell) const {
 
 /// Per part.
 std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
-  std::vector<double> faces = draining_cells(parts, closed_film);
+  std::vector<char> open = draining_parts(parts, closed_film);
+  std::vector<double> faces(open.size(), 0.0);
   CutRule rule;
   for (const std::string& name : open_boundaries_)
     for (const CellFace& face : field_->mesh().boundary(name)) {
@@ -249,24 +250,37 @@ std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
       ++faces[part];
     }
   field_->mesh().communicator().sum(faces);
-  std::vector<char> open;
-  for (const double count : faces) open.push_back(count > 0 ? 1 : 0);
+  for (std::size_t part = 0; part < open.size(); ++part)
+    if (faces[part] > 0) open[part] = 1;
   return open;
 }
 
-/// Owned cells of each part in which it is bounded by a body that lets it drain, and is no thinner than
-/// this, in diameters of a cell.
-std::vector<double> FieldCut::draining_cells(const WetParts& parts, double film) const {
-  std::vector<double> result(parts.volume.size(), 0.0);
+/// Per part: whether a body that lets it drain bounds it, and it is somewhere thicker than this, in diameters
+/// of a cell. That need not be where the body is: beside a mesh line the film lies in the cells behind it.
+std::vector<char> FieldCut::draining_parts(const WetParts& parts, double film) const {
+  const std::size_t count = parts.volume.size();
+  std::vector<char> result(count, 0);
   if (draining_.empty()) return result;
+  std::vector<double> bounded(count, 0.0), thick(count, 0.0);
   InterfaceRule surface;
   for (int c = 0; c < field_->mesh().owned_cells(); ++c) {
-    if (parts.part[c] < 0 || mesh_.state(c) != CellState::cut) continue;
+    const int part = parts.part[c];
+    if (part < 0) continue;
+    if (mesh_.state(c) != CellState::cut) {
+      ++thick[part];
+      continue;
+    }
     mesh_.interface_rule(c, 1, surface);
-    if (std::ranges::none_of(surface.body, [&](int body) { return draining_.contains(body); })) continue;
+    if (std::ranges::any_of(surface.body, [&](int body) { return draining_.contains(body); }))
+      ++bounded[part];
     const double area = std::accumulate(surface.weight.begin(), surface.weight.end(), 0.0);
-    if (2 * mesh_.wet_volume(c) > film * field_->mesh().diameter(c) * area) ++result[parts.part[c]];
+    const double most = std::max(field_->mesh().diameter(c) * area, mesh_.cell_volume(c));
+    if (2 * mesh_.wet_volume(c) > film * most) ++thick[part];
   }
+  field_->mesh().communicator().sum(bounded);
+  field_->mesh().communicator().sum(thick);
+  for (std::size_t part = 0; part < count; ++part)
+    result[part] = bounded[part] > 0 && thick[part] > 0 ? 1 : 0;
   return result;
 }
 
@@ -285,8 +299,7 @@ std::vector<double> FieldCut::count(Decision made, const WetParts& parts) const 
 std::vector<int> FieldCut::decide() {
   const WetParts parts = mesh_.find_parts();
   const std::vector<char> open = open_parts(parts);
-  std::vector<double> drains = draining_cells(parts, open_film);
-  field_->mesh().communicator().sum(drains);
+  const std::vector<char> drains = draining_parts(parts, open_film);
   const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
   bool waits = false;
@@ -296,7 +309,7 @@ std::vector<int> FieldCut::decide() {
     decide_on(c, Decision::body);
     if (part < 0) continue;
     const bool is_large = parts.cells[part] >= smallest_kept || open[part];
-    const bool is_reached = dropped[part] == 0 || drains[part] > 0 || (kept[part] > 0 && has_state(c));
+    const bool is_reached = dropped[part] == 0 || drains[part] != 0 || (kept[part] > 0 && has_state(c));
     decide_on(c, is_large && is_reached ? Decision::kept : Decision::dropped);
     if (decision(c) == Decision::kept) continue;
     cells.push_back(c);

@@ -108,7 +108,7 @@ class FieldCut {
   std::vector<std::string> fields_of_bodies_;  ///< "" for those of none
   std::vector<Surface> surfaces_;              ///< at the last update
   std::vector<char> active_;
-  [[nodiscard]] std::vector<double> draining_cells(const WetParts& parts, double film) const;
+  [[nodiscard]] std::vector<char> draining_parts(const WetParts& parts, double film) const;
   std::set<int> draining_;  ///< bodies
   std::vector<std::string> open_boundaries_;
   // In the field's store of states: with those of nodes, all that a cut depends on.
