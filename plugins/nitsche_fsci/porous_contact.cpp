@@ -167,6 +167,11 @@ class PorousContact final : public Coupling {
                                 {"contact_area", touching(TouchNumber::touches), MeasureOf::integral},
                                 {"contact_pressure", touching(TouchNumber::pressure), MeasureOf::greatest},
                                 {"effective_pressure", touching(TouchNumber::effective), MeasureOf::least}};
+    result.push_back(
+        {"into_gaps",
+         {{make_quantity(IntoGaps<facing, PorousClosed<facing>>{dry}), at.closed, scale, "closed"},
+          {make_quantity(IntoGaps<facing, PorousShut<facing>>{shut}), at.shut, scale, "shut"}},
+         MeasureOf::integral});
     if constexpr (facing == Facing::porous)
       result.push_back(
           {"seepage_through",
@@ -258,6 +263,8 @@ void declare_porous_contact(Registry& registry) {
        {Published::As::series, "seepage", "m^d/s", "rate at which fluid enters or leaves the pores"},
        {Published::As::series, "dropped", "m^d/s",
         "rate at which `smoothing` or `switch` lose fluid between film and pores"},
+       {Published::As::series, "into_gaps", "m^d/s",
+        "rate at which pores fill gaps that open where no fluid is, between porous bodies this look's half"},
        {Published::As::series, "seepage_through", "m^d/s",
         "between porous bodies: this look's half of what leaves the pores for those opposite"},
        {Published::As::series, "body_outflow", "m^d/s", "rate at which the wet surface itself moves out"},

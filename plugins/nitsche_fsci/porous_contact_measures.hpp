@@ -122,4 +122,17 @@ struct SeepageThrough {
   }
 };
 
+/// Out of closed or shut pores into a gap that opens without fluid, m/s; of both pores, this look's half.
+template <Facing facing, class Kernel>
+struct IntoGaps {
+  using Reads = typename Kernel::Reads;
+  static constexpr int values(int) { return 1; }
+  Kernel kernel;
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    constexpr double share = facing == Facing::porous ? 0.5 : 1;
+    *value = kernel.fades ? share * opening_of<dim, double, double>(x, s) : 0.0;
+  }
+};
+
 }  // namespace seam::fsci

@@ -125,12 +125,27 @@ TEST_CASE("states reach along a film that opens, and never beyond what is around
     gap = 0.02;
     CHECK_THROWS_AS(cut.update(0.1), StepRefused);
   }
-  SECTION("and from nowhere to one that nothing known touches") {
+  SECTION("and one that nothing known touches begins at rest, unless it is too thick") {
     left = -0.1;
     right = 1.1;
     gap = 0;
     cut.update(0.1);
-    gap = 6e-3;  // large enough not to be dropped
+    const std::vector<char> apart = block.known;
+    gap = 2e-2;
     CHECK_THROWS_AS(cut.update(0.2), StepRefused);
+    gap = 6e-3;  // large enough not to be dropped
+    for (int n = 0; n < block.space->nodes(); ++n)
+      if (!apart[n]) block.now.value[n] = 1;
+    cut.update(0.2);
+    int fresh = 0;
+    double most = 0;
+    for (int n = 0; n < block.space->nodes(); ++n) {
+      if (apart[n] || !block.active[n]) continue;
+      ++fresh;
+      most = std::max(most, std::abs(block.now.value[n]));
+    }
+    const Communicator all;
+    CHECK(all.sum(static_cast<double>(fresh)) >= 40);
+    CHECK(all.max(most) < 1e-9);
   }
 }

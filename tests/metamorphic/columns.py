@@ -25,14 +25,14 @@ INTEGRALS = {
     "mismatch": ("m/s", "sqrt(A)"), "mismatch_across": ("m/s", "sqrt(A)"), "mismatch_along": ("m/s", "sqrt(A)"),
     "jump": ("m/s", "sqrt(A)"), "apart": ("m", "sqrt(A)"), "overlap": ("m", "sqrt(A)"), "transfer": ("m/s", "A"), "gap": ("m", ""),
     "area": ("1", "A"), "contact_area": ("1", "A"), "pressure": ("Pa", ""), "contact_pressure": ("Pa", ""),
-    "effective_pressure": ("Pa", ""),
+    "effective_pressure": ("Pa", ""), "into_gaps": ("m/s", "A"),
     "fluid_outflow": ("m/s", "A"), "body_outflow": ("m/s", "A"), "seepage": ("m/s", "A"), "dropped": ("m/s", "A"), "force": ("Pa", "A"),
     "contact_force": ("Pa", "A")}
 
 # What adds up to next to nothing, or would vanish if the method were exact, deviates as its terms do; what is least,
 # greatest or in touch among integration points, as these do.
 REMAINDERS = ("divergence", "dropped_volume", "dropped", "mismatch", "mismatch_across", "mismatch_along", "jump", "apart", "overlap",
-              "fluid_outflow", "gap", "pressure", "contact_pressure", "effective_pressure", "area", "contact_area")
+              "fluid_outflow", "gap", "pressure", "contact_pressure", "effective_pressure", "into_gaps", "area", "contact_area")
 
 
 @dataclasses.dataclass

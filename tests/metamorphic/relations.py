@@ -107,7 +107,7 @@ def new_column(old, columns, names):
 def of_interface(what):
     """Whether a number is one that couplings record."""
     return what.split(".")[0] in ("mismatch", "mismatch_across", "mismatch_along", "jump", "apart", "overlap", "transfer", "gap", "area",
-                                  "pressure", "contact_area", "contact_pressure", "effective_pressure", "fluid_outflow", "body_outflow", "seepage", "dropped", "force",
+                                  "pressure", "contact_area", "contact_pressure", "effective_pressure", "into_gaps", "fluid_outflow", "body_outflow", "seepage", "dropped", "force",
                                   "contact_force")
 
 

@@ -347,9 +347,7 @@ fields:
     convection: false
     viscosity: 0.01
     fix_pressure: never
-    boundary:
-      - {on: [x_min, x_max], slip: true}
-      - {on: y_max, traction: [0, "t < turn ? -10 : 0"]}
+    boundary: [{on: [x_min, x_max], slip: true}, {on: y_max, traction: [0, "t < turn ? -10 : 0"]}]
   a:
     type: porous_solid
     mesh: a
@@ -375,9 +373,7 @@ coupling:
   - {type: porous_contact_in_fluid, on: a, stress: own, extension: pore_pressure}
   - {type: porous_contact_in_fluid, on: b, stress: other, extension: pore_pressure}
 time: {theta: 1, end: 0.8, step: {initial: 0.01}}
-output:
-  fields: false
-  probes: {inflow: {field: water, on: y_max, quantity: velocity, component: y}}
+output: {fields: false, probes: {inflow: {field: water, on: y_max, quantity: velocity, component: y}}}
 )yaml";
   const Run run(text);
   INFO(run.done.output);
@@ -393,4 +389,12 @@ output:
   CHECK(gap[row(0.49)] < 1e-4);
   CHECK((gap.back() - gap[row(0.7)]) / (time.back() - time[row(0.7)]) == Approx(rises).epsilon(0.005));
   CHECK(dropped.back() == 0);
+  // What leaves the upper one enters the film, the lower one, or the gap while nothing else fills that.
+  const std::vector<double> held = run.series("a.fluid_volume"), seeps = run.series("a.seepage"),
+                            down = run.series("a.seepage_through"), up = run.series("b.seepage_through"),
+                            fills = run.series("a.into_gaps");
+  for (std::size_t k = 1; k < time.size(); ++k)
+    CHECK(std::abs(held[k] - held[k - 1] -
+                   (time[k] - time[k - 1]) * (seeps[k] + up[k] - down[k] - fills[k])) < 1e-12 * held[0]);
+  CHECK(*std::ranges::max_element(fills) > 1e-6);
 }

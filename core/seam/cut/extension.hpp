@@ -13,7 +13,8 @@ namespace seam {
 /// the smallest jumps of normal derivatives across the faces around the new nodes. First derivatives weigh 1,
 /// second ones h^2 (thesis (3.10), (3.11)). A thin film that opens between bodies, or between a body and the
 /// border, may come alive over many cells at once: in those that no known node reaches, values are like those
-/// of their neighbours. What a film was before matters little beside what closes or opens it.
+/// of their neighbours, and 0 where the whole film is one that nothing known touches. What a film was before
+/// matters little beside what closes or opens it.
 class Extension {
  public:
   explicit Extension(Field& field);
