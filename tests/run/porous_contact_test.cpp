@@ -289,9 +289,9 @@ TEST_CASE(
     CHECK(rest("corner.y") > 1e-4);
   }
   SECTION("as on one") {
-    const std::string steps = coarse + "'time={theta: 1, end: 3, step: {initial: 0.05}}'";
-    const ShippedRun one("contact/half_porous_stamp", steps),
-        three("contact/half_porous_stamp", steps, "mpirun --oversubscribe -np 3 ");
+    const std::string fixed = coarse + "'time={theta: 1, end: 3, step: {initial: 0.05}}'";
+    const ShippedRun one("contact/half_porous_stamp", fixed),
+        three("contact/half_porous_stamp", fixed, "mpirun --oversubscribe -np 3 ");
     REQUIRE(one.series("skin_right.contact_force.y").back() > 1);
     for (const char* name : {"corner.y", "skin_right.contact_force.y", "skin_left.force.y", "pores"}) {
       CAPTURE(name);
