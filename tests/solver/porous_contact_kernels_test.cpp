@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What passes between a film of fluid and the pores of a body that closes it, at a single point.
-#include "nitsche_fsci/porous_contact_kernels.hpp"
+#include "nitsche_fsci/porous_contact_measures.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -192,6 +192,19 @@ void check_opening() {
   CHECK(both[5] == Approx(-seepage / 2 + opening / 4));
 }
 
+/// What is said of a point that touches, and of one that does not.
+void check_touch() {
+  const Touch pressed{-1e-3, -5, -1, 2}, apart{1e-3, -1, -5, 2};
+  CHECK(pressed(TouchNumber::gap, 0.6) == -1e-3);
+  CHECK(pressed(TouchNumber::touches, 0.6) == 1);
+  CHECK(pressed(TouchNumber::pressure, 0.6) == 5);
+  CHECK(pressed(TouchNumber::effective, 0.6) == 3);
+  CHECK(pressed(TouchNumber::traction, 0.6) == Approx(3));
+  CHECK(std::isinf(apart(TouchNumber::effective, 0.6)));
+  for (const TouchNumber number : {TouchNumber::touches, TouchNumber::pressure, TouchNumber::traction})
+    CHECK(apart(number, 0.6) == 0);
+}
+
 /// A wet point that counts as dry: what leaves the pores enters those opposite, and not the film.
 void check_dry_film() {
   using Kernel = PorousFilm<Facing::porous>;
@@ -245,5 +258,6 @@ TEST_CASE("a seal takes power, loses no fluid, and closes within its width") {
   check_tight();
   check_open_pores();
   check_opening();
+  check_touch();
   check_dry_film();
 }
