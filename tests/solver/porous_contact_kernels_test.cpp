@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What passes between a film of fluid and the pores of a body that closes it, at a single point.
-#include "nitsche_fsci/porous_contact_measures.hpp"
-
 #include <catch2/catch.hpp>
 #include <random>
+
+#include "nitsche_fsci/porous_contact_measures.hpp"
 
 using namespace seam;
 using namespace seam::fsci;
