@@ -8,7 +8,7 @@
 
 #include "seam/conformance/finite_difference.hpp"
 #include "seam/contact/facet_search.hpp"
-#include "seam/contact/facet_vertices.hpp"
+#include "seam/cut/facet_vertices.hpp"
 
 using namespace seam;
 

@@ -7,7 +7,7 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/contact/embedded_motion.hpp"
-#include "seam/contact/facet_vertices.hpp"
+#include "seam/cut/facet_vertices.hpp"
 #include "seam/mesh/quadrature.hpp"
 
 namespace seam {

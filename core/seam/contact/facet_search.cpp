@@ -7,7 +7,7 @@
 #include <boost/geometry/index/rtree.hpp>
 #include <cmath>
 
-#include "seam/contact/facet_vertices.hpp"
+#include "seam/cut/facet_vertices.hpp"
 #include "seam/cut/lattice.hpp"
 
 namespace seam {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "seam/contact/facet_vertices.hpp"
+#include "seam/cut/facet_vertices.hpp"
 
 namespace seam {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "seam/contact/facet_vertices.hpp"
+#include "seam/cut/facet_vertices.hpp"
 #include "seam/field/field.hpp"
 #include "seam/state/state_store.hpp"
 

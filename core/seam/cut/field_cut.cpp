@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -234,10 +233,9 @@ double FieldCut::trace_size(int cell) const {
   return volume / std::max(area_.at(cell), least_area * std::pow(volume, (dim - 1) / dim));
 }
 
-/// Per part.
-std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
-  std::vector<char> open = draining_parts(parts, closed_film);
-  std::vector<double> faces(open.size(), 0.0);
+/// Per part: whether what it holds can leave.
+std::vector<char> FieldCut::open_parts(const WetParts& parts, const std::vector<double>& thickness) const {
+  std::vector<double> faces(thickness.size(), 0.0);
   CutRule rule;
   for (const std::string& name : open_boundaries_)
     for (const CellFace& face : field_->mesh().boundary(name)) {
@@ -250,38 +248,35 @@ std::vector<char> FieldCut::open_parts(const WetParts& parts) const {
       ++faces[part];
     }
   field_->mesh().communicator().sum(faces);
-  for (std::size_t part = 0; part < open.size(); ++part)
-    if (faces[part] > 0) open[part] = 1;
+  std::vector<char> open;
+  for (std::size_t part = 0; part < faces.size(); ++part)
+    open.push_back(faces[part] > 0 || thickness[part] > closed_film ? 1 : 0);
   return open;
 }
 
-/// Per part: whether a body that lets it drain bounds it, and it is somewhere thicker than this, in diameters
-/// of a cell. That need not be where the body is: beside a mesh line the film lies in the cells behind it.
-std::vector<char> FieldCut::draining_parts(const WetParts& parts, double film) const {
-  const std::size_t count = parts.volume.size();
-  std::vector<char> result(count, 0);
-  if (draining_.empty()) return result;
-  std::vector<double> bounded(count, 0.0), thick(count, 0.0);
+/// Per part that a body which lets it drain bounds: how thick it is where it is thickest, in diameters of a
+/// cell; else 0. That need not be where the body is: beside a mesh line the film lies in the cells behind it.
+std::vector<double> FieldCut::draining_thickness(const WetParts& parts) const {
+  std::vector<double> thickness(parts.volume.size(), 0.0), bounded(thickness);
+  if (draining_.empty()) return thickness;
   InterfaceRule surface;
   for (int c = 0; c < field_->mesh().owned_cells(); ++c) {
     const int part = parts.part[c];
     if (part < 0) continue;
-    if (mesh_.state(c) != CellState::cut) {
-      ++thick[part];
-      continue;
+    double here = 1;
+    if (mesh_.state(c) == CellState::cut) {
+      mesh_.interface_rule(c, 1, surface);
+      if (std::ranges::any_of(surface.body, [&](int body) { return draining_.contains(body); }))
+        bounded[part] = 1;
+      const double area = std::accumulate(surface.weight.begin(), surface.weight.end(), 0.0);
+      here = 2 * mesh_.wet_volume(c) / std::max(field_->mesh().diameter(c) * area, mesh_.cell_volume(c));
     }
-    mesh_.interface_rule(c, 1, surface);
-    if (std::ranges::any_of(surface.body, [&](int body) { return draining_.contains(body); }))
-      ++bounded[part];
-    const double area = std::accumulate(surface.weight.begin(), surface.weight.end(), 0.0);
-    const double most = std::max(field_->mesh().diameter(c) * area, mesh_.cell_volume(c));
-    if (2 * mesh_.wet_volume(c) > film * most) ++thick[part];
+    thickness[part] = std::max(thickness[part], here);
   }
-  field_->mesh().communicator().sum(bounded);
-  field_->mesh().communicator().sum(thick);
-  for (std::size_t part = 0; part < count; ++part)
-    result[part] = bounded[part] > 0 && thick[part] > 0 ? 1 : 0;
-  return result;
+  field_->mesh().communicator().max(thickness);
+  field_->mesh().communicator().max(bounded);
+  for (std::size_t part = 0; part < thickness.size(); ++part) thickness[part] *= bounded[part];
+  return thickness;
 }
 
 /// How many owned cells of each part the last decision, if any, made this.
@@ -298,8 +293,8 @@ std::vector<double> FieldCut::count(Decision made, const WetParts& parts) const 
 /// filled, one layer of cells a step. A film that drains into a body starts from rest when it opens again.
 std::vector<int> FieldCut::decide() {
   const WetParts parts = mesh_.find_parts();
-  const std::vector<char> open = open_parts(parts);
-  const std::vector<char> drains = draining_parts(parts, open_film);
+  const std::vector<double> thickness = draining_thickness(parts);
+  const std::vector<char> open = open_parts(parts, thickness);
   const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
   bool waits = false;
@@ -309,7 +304,8 @@ std::vector<int> FieldCut::decide() {
     decide_on(c, Decision::body);
     if (part < 0) continue;
     const bool is_large = parts.cells[part] >= smallest_kept || open[part];
-    const bool is_reached = dropped[part] == 0 || drains[part] != 0 || (kept[part] > 0 && has_state(c));
+    const bool is_reached =
+        dropped[part] == 0 || thickness[part] > open_film || (kept[part] > 0 && has_state(c));
     decide_on(c, is_large && is_reached ? Decision::kept : Decision::dropped);
     if (decision(c) == Decision::kept) continue;
     cells.push_back(c);
@@ -323,7 +319,7 @@ std::vector<int> FieldCut::decide() {
 /// moved on from dropped cells, or is new and small. No known state would reach it.
 std::vector<int> FieldCut::follow_decision() const {
   const WetParts parts = mesh_.find_parts();
-  const std::vector<char> open = open_parts(parts);
+  const std::vector<char> open = open_parts(parts, draining_thickness(parts));
   const std::vector<double> kept = count(Decision::kept, parts), dropped = count(Decision::dropped, parts);
   std::vector<int> cells;
   for (int c = 0; c < field_->mesh().cells(); ++c) {

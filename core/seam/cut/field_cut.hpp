@@ -64,8 +64,8 @@ class FieldCut {
   /// the caller. Collective.
   /// @return false when nothing has changed since the last call
   /// @throws Error when the bodies cannot be cut out at the start, or end on each other in the mesh
-  /// (refuse_unsound_surfaces), StepRefused when they cannot later, or
-  /// when a cell comes alive that no known state reaches
+  /// (refuse_unsound_surfaces), StepRefused when they cannot later, or when a cell comes alive that no known
+  /// state reaches
   bool update(double time);
 
   [[nodiscard]] const CutMesh& mesh() const { return mesh_; }
@@ -96,7 +96,9 @@ class FieldCut {
   void warn(const std::string& kind, const std::string& message);
   void check_motion(const PartLayout& before) const;
   void accept_states(bool at_start);
-  [[nodiscard]] std::vector<char> open_parts(const WetParts& parts) const;
+  [[nodiscard]] std::vector<double> draining_thickness(const WetParts& parts) const;
+  [[nodiscard]] std::vector<char> open_parts(const WetParts& parts,
+                                             const std::vector<double>& thickness) const;
   [[nodiscard]] std::vector<double> count(Decision made, const WetParts& parts) const;
   /// Whether any node of a local cell has one, in any of its parts.
   [[nodiscard]] bool has_state(int cell) const;
@@ -108,7 +110,6 @@ class FieldCut {
   std::vector<std::string> fields_of_bodies_;  ///< "" for those of none
   std::vector<Surface> surfaces_;              ///< at the last update
   std::vector<char> active_;
-  [[nodiscard]] std::vector<char> draining_parts(const WetParts& parts, double film) const;
   std::set<int> draining_;  ///< bodies
   std::vector<std::string> open_boundaries_;
   // In the field's store of states: with those of nodes, all that a cut depends on.
