@@ -8,8 +8,8 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/contact/embedded_motion.hpp"
-#include "seam/cut/facet_vertices.hpp"
 #include "seam/cut/cut_boundary.hpp"
+#include "seam/cut/facet_vertices.hpp"
 #include "seam/cut/interface_motion.hpp"
 #include "seam/mesh/quadrature.hpp"
 
