@@ -3,6 +3,7 @@
 
 #include "contact_in_fluid_kernels.hpp"
 #include "fluid_porous.hpp"
+#include "pore_seal.hpp"
 
 /// Fluid, porous body and its contact with another one by one formula, thesis chapter 7. With the body's
 /// outward normal n = -n_F, w = v_P - du/dt and the seepage q = phi w.n out of the body:
@@ -27,76 +28,6 @@ using FacingPressure = Scalar<7>;
 
 /// What a point of the surface faces.
 enum class Facing { nothing, tight, porous };
-
-/// How pores are sealed as a gap closes.
-struct Seal {
-  enum class Kind {
-    resistance,  ///< p + F = R q, R = c alpha/(1 - alpha): one flux q^ on both sides
-    printed,     ///< thesis (7.25)-(7.28): alpha of the seepage is lost to the fluid
-    sudden       ///< open until a point is dry
-  };
-  Kind kind;
-  double width;  ///< m, of the gap in which alpha rises from 0 to 1; 0: a hundredth of the fluid's cell
-  double dry;    ///< m: points whose gap at the start of a step was less are sealed
-
-  /// Whether the film is none. @param start the gap at the start of the step
-  template <int dim, class G>
-  [[nodiscard]] bool is_dry(const Point<dim, G>& x, double start) const {
-    return start < dry || plain(x.gap) <= 0;
-  }
-  /// Whether pores that are not wet are open to pores opposite: not where they look at each other across what
-  /// the fluid's mesh ends before.
-  template <int dim, class G>
-  [[nodiscard]] bool meets(const Point<dim, G>& x) const {
-    return plain(x.gap) < std::max(dry, 0.01 * x.cell_size);
-  }
-  /// alpha: 0 open, 1 sealed.
-  template <int dim, class T, class G>
-  [[nodiscard]] T closed(const Point<dim, G>& x, double start) const {
-    if (is_dry(x, start)) return T(1.0);
-    const double within = kind == Kind::sudden ? 0 : width > 0 ? width : 0.01 * x.cell_size;
-    if (plain(x.gap) >= within) return T(0.0);
-    return 1 - (1 / within) * T(x.gap);
-  }
-};
-
-/// What passes between fluid and pores, out of the body, m/s, and what presses on both, Pa.
-template <class T>
-struct Exchange {
-  T pull;           ///< F
-  T into_fluid;     ///< q^ as the fluid's balance has it
-  T out_of_pores;   ///< q^ as the pores' has it, against a porous body this look's half
-  T pore_pressure;  ///< p^
-  T into_facing{};  ///< what pores opposite get of it
-};
-
-/// @param stress n . sigma_F n @param penalty gamma_F, Pa s/m @param speed (v - du/dt) . n
-/// @param c resistance mu l/k of a layer of the pores as thick as the fluid's cell, Pa s/m
-///
-/// With the resistance, every beta in [0, 1] imposes it: p^ = beta (R q - F) + (1 - beta) p, q^ = beta q + (1
-/// - beta)(p + F)/R. beta = c/(c + R) = 1 - alpha has no number that grows without bound. The power that the
-/// seal takes, beta R q^2 + (1 - beta)(p + F)^2/R, is never negative.
-template <class T>
-Exchange<T> exchange(const Seal& seal, const T& alpha, const T& stress, const T& penalty, const T& speed,
-                     const T& pressure, const T& seepage, const T& c) {
-  const T open = 1 - alpha;
-  if (seal.kind == Seal::Kind::resistance) {
-    const T leak = open / c;
-    const T pull = (stress + penalty * (speed - open * seepage - leak * pressure)) / (1 + penalty * leak);
-    const T through = open * seepage + leak * (pressure + pull);
-    return {pull, through, through, alpha * (pressure + c * seepage) - open * pull, T(0.0)};
-  }
-  const T flow = seal.kind == Seal::Kind::sudden ? open * seepage : seepage;
-  const T pull = stress + penalty * (speed - flow);
-  return {pull, flow, open * seepage, alpha * pressure - open * pull, T(0.0)};
-}
-
-/// The same at a dry point between pores, of which the fluid's film sees nothing. @param mean of both
-/// pressures @param opening g', of which each side fills a half, and each look a half of that
-template <class T>
-Exchange<T> between_pores(const T& pull, const T& mean, const T& seepage, const T& opening) {
-  return {pull, T(0.0), 0.5 * seepage + 0.25 * opening, mean, 0.5 * seepage - 0.25 * opening};
-}
 
 /// A porous body's own part of what its kernels read.
 template <class... More>
@@ -195,9 +126,12 @@ struct PorousFilm {
     const T speed = -1.0 * dot(velocity - s.rate(Displacement{}), n);
     T sealed(0.0);
     if constexpr (facing == Facing::porous) {
-      if (plain(x.gap) <= 0 || (!fades && body.seal.is_dry(x, start<dim, T, G>(x, s))))
-        return between_pores<T>(T(stress + penalty * speed), PorousSide::mean_pressure<facing, T>(s),
-                                state.seepage, T(0.0));
+      if (plain(x.gap) <= 0 || (!fades && body.seal.is_dry(x, start<dim, T, G>(x, s)))) {
+        const T pull = stress + penalty * speed,
+                leak = (Seal::left_open / body.template resistance<dim, T, G>(x, state)) *
+                       (state.pressure + pull);
+        return between_pores<T>(pull, PorousSide::mean_pressure<facing, T>(s), state.seepage, T(0.0), leak);
+      }
     } else {
       sealed = body.seal.template closed<dim, T, G>(x, start<dim, T, G>(x, s));
     }
@@ -267,7 +201,7 @@ T sealed_pressure(const PorousSide& body, const Point<dim, G>& x, const S& s, co
 /// than films that come back lies outside of the fluid's mesh. In between it fades.
 template <int dim, class T, class G, class S>
 T opening_of(const Point<dim, G>& x, const S& s) {
-  const double ahead = 5e-3 * x.cell_size, behind = 1e-4 * x.cell_size, gap = plain(x.gap);
+  const double ahead = 5e-3 * x.cell_size, behind = 1e-3 * x.cell_size, gap = plain(x.gap);
   if (gap <= -behind || gap >= ahead) return T(0.0);
   T part(1.0);
   if (gap < 0) part += (1 / behind) * T(x.gap);
@@ -276,21 +210,30 @@ T opening_of(const Point<dim, G>& x, const S& s) {
   return T(-1.0 * part * dot(apart, x.normal));
 }
 
-/// What the pores of a closed surface have for the fluid's traction, thesis (7.30).
+/// What the pores of a closed surface have for the fluid's traction, thesis (7.30), while the gap rests.
 template <Facing facing, int dim, class T, class G, class S>
 T pull_of_pores(const PorousSide& body, const Point<dim, G>& x, const S& s) {
   if constexpr (facing == Facing::porous)
     return T(-PorousSide::mean_pressure<facing, T>(s));
   else
-    return T(-sealed_pressure<dim, T, G>(body, x, s, opening_of<dim, T, G>(x, s)));
+    return T(-sealed_pressure<dim, T, G>(body, x, s, T(0.0)));
 }
 
-/// min(F, S) on the mixture, and pores that are sealed, or open to those opposite.
+/// min(F, S) on the mixture, and pores that are sealed, or open to those opposite. What fills a gap resists
+/// in contact as it does beside it, part c g': within F alone it would turn whatever opens quickly into
+/// contact.
+/// @param part of F that is the pores' own
 template <Facing facing, int dim, class T, class G, class S, class R>
-void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& pull, const T& opening,
-             R& r) {
+void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T& pull, const T& part,
+             const T& opening, R& r) {
   const T contact = body.template pull<facing, dim, T, G>(x, s);
   r.value(Displacement{}) += (plain(contact) < plain(pull) ? contact : pull) * x.normal;
+  if constexpr (facing != Facing::porous) {
+    if (body.seal.kind == Seal::Kind::resistance)
+      r.value(Displacement{}) +=
+          (part * opening * body.template resistance<dim, T, G>(x, body.template state<dim, T, G>(x, s))) *
+          x.normal;
+  }
   if constexpr (facing == Facing::porous) {
     if (body.seal.meets(x)) {
       const Exchange<T> passing = between_pores<T>(pull, PorousSide::mean_pressure<facing, T>(s),
@@ -333,18 +276,22 @@ struct PorousClosed {
   /// F of the nearest wet point, as the closed part has it.
   template <int dim, class T, class G>
   [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
-    using std::sqrt;
     const T tip = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
                                               s.value(Pressure{}), s.rate(TipDisplacement{}));
-    if (!fades) return tip;
-    const T pores = pull_of_pores<facing, dim, T, G>(body, x, s);
+    const T part = part_of_pores<dim, T, G>(x, s);
+    return (1 - part) * tip + part * pull_of_pores<facing, dim, T, G>(body, x, s);
+  }
+  /// Of F, the rest is that of the nearest wet point.
+  template <int dim, class T, class G>
+  [[nodiscard]] T part_of_pores(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
+    using std::sqrt;
+    if (!fades) return T(0.0);
     Vec<dim, T> way = s.value(Displacement{});
     way += x.partner_position - x.position;
     const T square = dot(way, way);
-    if (plain(square) <= 0) return tip;
-    if (plain(square) >= x.cell_size * x.cell_size) return pores;
-    const T part = (1 / x.cell_size) * sqrt(square);
-    return (1 - part) * tip + part * pores;
+    if (plain(square) <= 0) return T(0.0);
+    if (plain(square) >= x.cell_size * x.cell_size) return T(1.0);
+    return (1 / x.cell_size) * sqrt(square);
   }
   template <int dim, class T, class G>
   [[nodiscard]] T of_bodies(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
@@ -354,7 +301,8 @@ struct PorousClosed {
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     const T opening = fades ? opening_of<dim, T, G>(x, s) : T(0.0);
-    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), opening, r);
+    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), part_of_pores<dim, T, G>(x, s), opening,
+                               r);
   }
 };
 
@@ -379,7 +327,7 @@ struct PorousShut {
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     const T opening = fades ? opening_of<dim, T, G>(x, s) : T(0.0);
-    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), opening, r);
+    add_dry<facing, dim, T, G>(body, x, s, of_fluid<dim, T, G>(x, s), T(1.0), opening, r);
   }
 };
 

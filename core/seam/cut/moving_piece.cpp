@@ -32,6 +32,14 @@ bool contains(const Outline& outline, const Side& side, const Vec<3, double>& no
   return true;
 }
 
+/// Beside the facet there is no body: what it knows there would be extrapolated.
+template <int dim>
+void keep_on_facet(Vec<dim - 1, double>& share) {
+  double sum = 0;
+  for (double& s : share.c) sum += s = std::max(s, 0.0);
+  if (sum > 1) share = (1 / sum) * share;
+}
+
 }  // namespace
 
 template <int dim>
@@ -42,7 +50,8 @@ MovingPiece<dim>::MovingPiece(const Outline& outline, const CutCell& cell, const
   for (int k = 0; k < piece.count; ++k) {
     Corner& corner = corner_.emplace_back();
     corner.position = vec<dim>(cell.points[piece.first + k]);
-    const auto share = shares_of<dim>(vertex_, corner.position);
+    auto share = shares_of<dim>(vertex_, corner.position);
+    if (piece.handed_over) keep_on_facet<dim>(share);
     for (int i = 0; i + 1 < dim; ++i) corner.on_facet[i] = share[i];
   }
   // What stems from a neighbour is bounded by that one's borders, and too small to matter.

@@ -171,7 +171,10 @@ void CutMesh::interface_rule(int cell, int degree, InterfaceRule& rule, Interfac
           for (const double end : {ends[k], ends[k + 1]}) rule.span.push_back(from + end * (to - from));
           if (!moving) continue;
           MovingPoint<2, 1>& point = motion->in_plane.emplace_back(moving->point({0, 1}, {1 - s, s}));
-          point.span = {{moving->on_facet(ends[k]), moving->on_facet(ends[k + 1])}};
+          for (const std::size_t end : {0, 1})
+            point.span[end] = piece.handed_over
+                                  ? MovingPiece<2>::Number(rule.span[rule.span.size() - 2 + end])
+                                  : moving->on_facet(ends[k + end]);
         }
       continue;
     }
