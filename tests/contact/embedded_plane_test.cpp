@@ -77,6 +77,8 @@ TEST_CASE(
     for (const EmbeddedSurface::Zone zone : zones)
       for (const EmbeddedSurface::Element& element : body.surface.elements(zone))
         for (std::size_t q = 0; q < element.own.weight.size(); ++q) {
+          if (zone == EmbeddedSurface::near || zone == EmbeddedSurface::closed)
+            CHECK(std::abs(element.gap[q]) < 1.01 * size);
           for (const std::size_t d : {0, 1})
             CHECK(std::abs(element.own.reference[2 * q + d] - 0.5) < 0.5 + 1e-6);
           if (element.normal[2 * q + 1] < 0.99) continue;
