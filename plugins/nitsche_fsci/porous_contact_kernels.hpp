@@ -228,12 +228,6 @@ void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T
              const T& opening, R& r) {
   const T contact = body.template pull<facing, dim, T, G>(x, s);
   r.value(Displacement{}) += (plain(contact) < plain(pull) ? contact : pull) * x.normal;
-  if constexpr (facing != Facing::porous) {
-    if (body.seal.kind == Seal::Kind::resistance)
-      r.value(Displacement{}) +=
-          (part * opening * body.template resistance<dim, T, G>(x, body.template state<dim, T, G>(x, s))) *
-          x.normal;
-  }
   if constexpr (facing == Facing::porous) {
     if (body.seal.meets(x)) {
       const Exchange<T> passing = between_pores<T>(pull, PorousSide::mean_pressure<facing, T>(s),
@@ -243,6 +237,9 @@ void add_dry(const PorousSide& body, const Point<dim, G>& x, const S& s, const T
       r.value(FacingPressure{}) -= passing.into_facing;
       return;
     }
+  } else if (body.seal.kind == Seal::Kind::resistance && plain(part) > 0) {
+    const T c = body.template resistance<dim, T, G>(x, body.template state<dim, T, G>(x, s));
+    r.value(Displacement{}) += (part * opening * c) * x.normal;
   }
   r.value(PoreVelocity{}) -= sealed_pressure<dim, T, G>(body, x, s, opening) * x.normal;
   r.value(PorePressure{}) += opening;
@@ -278,6 +275,7 @@ struct PorousClosed {
   [[nodiscard]] T of_fluid(const Point<dim, G>& x, const Trial<dim, T, Reads>& s) const {
     const T tip = fluid.operator()<dim, T, G>(x, s.value(Velocity{}), s.gradient(Velocity{}),
                                               s.value(Pressure{}), s.rate(TipDisplacement{}));
+    if (!fades) return tip;
     const T part = part_of_pores<dim, T, G>(x, s);
     return (1 - part) * tip + part * pull_of_pores<facing, dim, T, G>(body, x, s);
   }

@@ -9,6 +9,7 @@
 #include "cut/cut_test.hpp"
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/field_cut.hpp"
+#include "seam/cut/interface_motion.hpp"
 #include "seam/state/state_store.hpp"
 
 using namespace seam;
@@ -248,11 +249,14 @@ TEST_CASE("A piece laid onto the mouth of what is dropped stands for no more of 
   double laid = 0;
   for (const int c : cut.cut_cells()) {
     InterfaceRule rule;
-    cut.interface_rule(c, 2, rule);
+    InterfaceMotion motion;
+    cut.interface_rule(c, 2, rule, &motion);
     std::map<std::array<double, 4>, double> weight;  // of each piece: body, facet and where it is
     std::set<std::array<double, 4>> in_mouth;
     for (int q = 0; q < rule.count(); ++q) {
       const double from = rule.span[2 * q], to = rule.span[2 * q + 1];
+      for (const int end : {0, 1})
+        CHECK(motion.in_plane[q].span[end].v == Approx(rule.span[2 * q + end]).margin(1e-9));
       weight[{double(rule.body[q]), double(rule.facet[q]), from, to}] += rule.weight[q];
       if (std::abs(rule.normal[2 * q + 1]) > .999 && std::abs(rule.position[2 * q + 1] - .5) < 1e-9) {
         laid += rule.weight[q];

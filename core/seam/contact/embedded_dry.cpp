@@ -18,15 +18,14 @@ namespace {
 
 constexpr double rounding = 1e-9;  ///< of shares of a facet
 
-/// What a facet's wet stretches leave over. Those that end beside it are on its line, not on it.
+/// What a facet's wet stretches leave over.
 std::vector<std::pair<double, double>> rest(std::vector<std::pair<double, double>> wet) {
   std::ranges::sort(wet);
   std::vector<std::pair<double, double>> result;
   double reached = 0;
   wet.emplace_back(1, 1);
   for (const auto& [from, to] : wet) {
-    const double end = std::min(from, 1.0);
-    if (end - reached > rounding) result.emplace_back(reached, end);
+    if (from - reached > rounding) result.emplace_back(reached, from);
     reached = std::max(reached, to);
   }
   return result;
