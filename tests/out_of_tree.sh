@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs Seam into a folder of its own, builds plugins against that installation only, and runs their tests (their
-# scenes, and the conformance kit): the template, a coupling of Seam's own fluid and solid, a law of friction in contact, a linear solver and a
+# scenes, and the conformance kit): the template, a coupling of Seam's own fluid and solid, a law of friction in contact, one of adhesion, a linear solver and a
 # block inverse, a constraint, a shape with an interface and a known function, a stabilisation.
 # Usage: out_of_tree.sh <source folder> <build folder>
 set -eu
@@ -41,6 +41,7 @@ build_plugin() {
 build_plugin example "$source/tools/template"
 build_plugin friction "$source/tests/out_of_tree/friction"
 build_plugin coulomb "$source/tests/out_of_tree/coulomb"
+build_plugin adhesion "$source/tests/out_of_tree/adhesion"
 build_plugin solvers "$source/tests/out_of_tree/solvers"
 build_plugin rod "$source/tests/out_of_tree/rod"
 build_plugin geometry "$source/tests/out_of_tree/geometry"

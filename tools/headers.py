@@ -22,7 +22,7 @@ PLUGINS = CORE.parent / "plugins"
 ABI = CORE / "seam/plugin/abi.txt"
 GUIDE = CORE.parent / "docs/write-a-plugin.md"
 ENTRIES = """
-    assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp interface/adjoint.hpp interface/cell_constant.hpp
+    assembly/domains.hpp base/plugin_fault.hpp constraint/constraint.hpp constraint/node_selection.hpp field/row_law.hpp interface/adjoint.hpp interface/cell_constant.hpp
     interface/interface.hpp linear/block_inverse.hpp linear/linear_solver.hpp mesh/quadrature.hpp physics/body_terms.hpp physics/hyperelastic.hpp
     physics/completes_start.hpp physics/law.hpp physics/physics.hpp physics/potential.hpp physics/regions.hpp physics/stress_law.hpp
     plugin/plugin.hpp plugin/registry.hpp scene/expression.hpp scene/function.hpp scene/parameters.hpp
@@ -30,7 +30,7 @@ ENTRIES = """
     term/symmetric.hpp term/tensor.hpp
 """.split()
 # Of plugins whose types others can extend: installed as seam/plugins/..., with what they include beside them.
-OF_PLUGINS = ["cutfem_fluid/stabilisation.hpp"]
+OF_PLUGINS = ["cutfem_fluid/stabilisation.hpp", "mortar_contact/contact_law.hpp"]
 GENERATED = {"seam/plugin/fingerprint.hpp", "seam/plugin/headers.hpp"}  # by CMake, where Seam is built
 
 COMMENT_OR_TEXT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.S)

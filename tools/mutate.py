@@ -21,7 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 LISTS = ROOT / "tests" / "mutations"
 RECORD = ROOT / "docs" / "results" / "mutations"
-PLUGINS = ("solid", "cutfem_fluid", "nitsche_fsci", "poroelasticity", "manufactured")
+PLUGINS = ("solid", "cutfem_fluid", "nitsche_fsci", "poroelasticity", "manufactured", "mortar_contact")
 FIELDS = ("id", "outcome", "by", "seconds", "commit")
 SECONDS = 6000  # of a test; one that takes longer, ten times what the longest one needs, has noticed
 
@@ -30,7 +30,7 @@ CHAINS = {
     "assembly": "solver kit:solid fluid kit:cutfem_fluid kit:nitsche_fsci",
     "base": "input solver",
     "constraint": "solver:ties_test run:constraints_test kit:solid kit:cutfem_fluid",
-    "contact": "contact cut scene:contact/patch_2d scene:contact/patch_3d scene:contact/closing_notch run:passage_test "
+    "contact": "contact solver:surface_unknown_test cut scene:contact/patch_2d scene:contact/patch_3d scene:contact/closing_notch run:passage_test "
                "fsi:contact_in_fluid_test kit:nitsche_fsci",
     "cut": "cut cut_stress run:moving_cut_test run:separate_parts_test run:pocket_test fluid kit:cutfem_fluid "
            "scene:fsi/c01 ctest:cut_stress_found",
@@ -43,6 +43,7 @@ CHAINS = {
     "matrix": "cli:matrix_test ctest:junit run:matrix_run_test",
     "manufactured": "fsi:exact_test solver scene:fsi/c01 scene:poro/c07 scene:poro/waves",
     "mesh": "mesh input",
+    "mortar_contact": "run:mortar_test kit:mortar_contact",
     "nitsche_fsci": "solver:nitsche_kernels_test solver:coupling_kernels_test fsi:eigenvalue_test fsi:exact_test fsi:contact_in_fluid_test fsi:porous_trends_test kit:nitsche_fsci "
                     "scene:contact/patch_2d run:energy_test",
     "output": "mesh:vtu_test run:output_test run:results_test run:results_folder_test run:cut_output_test run:flush_test",

@@ -96,7 +96,7 @@ stage_fast() { run_ctest "$seam_build" --label-exclude 'slow|install'; }
 
 stage_install() { run_ctest "$seam_build" --label-regex install; }
 
-stage_scenes() { verify_scenes fast --cover core --cover cutfem_fluid --cover manufactured --cover nitsche_fsci --cover poroelasticity --cover solid; }
+stage_scenes() { verify_scenes fast --cover core --cover cutfem_fluid --cover manufactured --cover mortar_contact --cover nitsche_fsci --cover poroelasticity --cover solid; }
 
 stage_records() {
   local log=$seam_build/records.log

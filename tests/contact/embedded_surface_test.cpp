@@ -219,8 +219,8 @@ TEST_CASE(
   const auto check = [&](double height, double least_gap) {
     Block& block = stamp.stamp.blocks()[0];
     for (std::size_t k = 2; k < block.now.value.size(); k += 3) block.now.value[k] = height;
-    passage.check(OppositePoints(*stamp.stamp_surface, stamp.step_surface.get(), stamp.step_surface->now(),
-                                 {0.05, 0.05}),
+    passage.check(OppositePoints(*stamp.stamp_surface, stamp.step_surface.get(), stamp.stamp_surface->now(),
+                                 stamp.step_surface->now(), {0.05, 0.05}),
                   least_gap);
   };
   // Onwards by less than what is looked at in any case, and out of sight.

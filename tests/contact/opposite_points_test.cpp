@@ -26,7 +26,8 @@ TEST_CASE("the two sides of a notch are no surfaces that touch") {
   Field body("body", *mesh, {{"displacement", 2, 1, 0, "m"}});
   const BodySurface surface(body, {}, "displacement");
   Surface twin = surface.now();
-  const OppositePoints itself(surface, &surface, twin, {5, 0.1}), another(surface, nullptr, twin, {5, 0.1});
+  const OppositePoints itself(surface, &surface, surface.now(), twin, {5, 0.1}),
+      another(surface, nullptr, surface.now(), twin, {5, 0.1});
   int seen = 0;
   for (int facet = 0; facet < surface.now().facet_count(); ++facet)
     for (const double share : {0.1, 0.5, 0.9}) {

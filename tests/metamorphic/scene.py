@@ -46,11 +46,11 @@ REFERENCES = {
     "interface.cut.field": "fields", "interface.embedded.field": "fields", "interface.embedded.body": "fields",
     "interface.contact.from": "fields", "interface.contact.to": "fields", "interface.obstacle.from": "fields",
     "interface.embedded_contact.field": "fields", "interface.embedded_contact.body": "fields",
-    "interface.embedded_contact.to": "fields", "interface.matching.fields": "fields",
+    "interface.embedded_contact.to": "fields", "interface.matching.fields": "fields", "interface.non_matching.fields": "fields",
     "scene.output.probes.field": "fields", "scene.output.probes.interface": "interfaces",
 }
 REFERENCES |= {f"coupling.{name}.on": "interfaces" for name in
-               ("fluid_wall", "fluid_traction", "fluid_patch", "fsi", "fpi", "bonded", "contact", "contact_in_fluid",
+               ("fluid_wall", "fluid_traction", "fluid_patch", "fsi", "fpi", "bonded", "contact", "contact_in_fluid", "mortar_contact", "mortar_tie",
                 "porous_contact_in_fluid")}
 
 # Lists whose order means nothing.

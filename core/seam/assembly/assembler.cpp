@@ -91,6 +91,7 @@ void Assembler::number_unknowns() {
   NodeGraph::Elements elements;
   collect_elements(elements);
   graph_.build(communicator_, std::move(nodes), owned_nodes, elements, matrix_);
+  number_laws();
   local_residual_.assign(unknowns, 0.0);
   local_magnitude_.assign(unknowns, 0.0);
   local_lift_.assign(unknowns, 0.0);
@@ -133,6 +134,8 @@ void Assembler::assemble(const TimePoint& at, bool with_tangent) {
     graph_.collect_matrix(matrix_);
     graph_.collect_vector(local_lift_);
   }
+  hold_unreached(with_tangent);
+  apply_laws(with_tangent);
   hold_related(with_tangent);
   is_finite_ = !communicator_.any(!all_finite(with_tangent));
   assembly_seconds_ += watch.seconds();
@@ -366,6 +369,7 @@ void Assembler::add_increment(const std::vector<double>& increment, double facto
     }
     b.block->space->halo().update(b.block->now.value, b.block->size);
   }
+  for (Field* field : fields_) field->show_left_out();
   if (has_ties_) settle_ties(remaining);
 }
 
@@ -386,6 +390,7 @@ void Assembler::keep_residual() {
   for (const NumberedBlock& b : blocks_) kept_residual_.emplace_back(b.block->now.value.size(), 0.0);
   for_each_own(
       [&](std::size_t b, std::size_t state, int row) { kept_residual_[b][state] = local_residual_[row]; });
+  meet_laws_as_they_are();
 }
 
 void Assembler::take_out_kept() {

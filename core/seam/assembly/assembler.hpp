@@ -18,6 +18,7 @@ namespace seam {
 class ElementEvaluator;
 class Field;
 class IntegrationDomain;
+class RowLaw;
 struct Block;
 struct TimePoint;
 
@@ -193,6 +194,18 @@ class Assembler {
   };
   void add_free_block(int row_node, int column_node, const NodeBlock& block);
   void add_related_block(int row_node, int column_node, const NodeBlock& block);
+  /// The equations of an unknown with a law, at an owned node where none of its components is given or tied.
+  struct LawRows {
+    const RowLaw* law;
+    int first;          ///< row
+    std::size_t block;  ///< index into blocks_
+    std::size_t state;  ///< index into the values of the block
+    double share;
+  };
+  void number_laws();
+  void apply_laws(bool with_tangent);
+  void meet_laws_as_they_are();
+  void hold_unreached(bool with_tangent);
   void add_to_row(int row, double entry, int column);
   void add_related_sums();
   void hand_on(const Tie& tie, double residual, double magnitude, bool with_tangent);
@@ -237,6 +250,10 @@ class Assembler {
   std::vector<double> pending_;    ///< per local unknown with a relation: how far it has still to go
   bool has_given_ties_ = false;    ///< those that `is_given`, on any rank
   bool has_turning_ties_ = false;  ///< on any rank: coefficients change with the state
+  std::vector<LawRows> laws_;
+  /// [block][unknown of a local node]: of a surface, with no term that speaks of it. Whoever is numbered
+  /// anew.
+  std::vector<std::vector<char>> is_unreached_;
   std::vector<Ties::Resolved> resolved_;
   std::vector<Tie> ties_;
   std::vector<int> node_of_;                              ///< [local unknown]: node of the graph

@@ -27,6 +27,14 @@ struct ElementSide {
   const ShapeTable* table[2] = {nullptr, nullptr};
   /// Those that are tabulated for this element alone.
   std::unique_ptr<ShapeTable> own_table[2];
+  /// Of blocks that have functions of their own here: by block, without points where it has none.
+  std::vector<ShapeTable> own_functions;
+
+  /// The functions of a block at the points. @param order of its space
+  [[nodiscard]] const ShapeTable& functions(int block, int order) const {
+    const auto b = static_cast<std::size_t>(block);
+    return b < own_functions.size() && own_functions[b].points > 0 ? own_functions[b] : *table[order - 1];
+  }
 
   // Filled by map_geometry:
   std::vector<double> position;          ///< [point][dimension]

@@ -203,7 +203,7 @@ void ElementEvaluator::compute_operators() {
   for (std::size_t p = 0; p < side_blocks_.size(); ++p) {
     const SideBlock& side_block = side_blocks_[p];
     const ElementSide& side = element_.sides[side_block.side];
-    const ShapeTable& table = *side.table[side_block.states->space->order() - 1];
+    const ShapeTable& table = side.functions(side_block.block, side_block.states->space->order());
     Operators& operators = operators_[p];
     operators.value = table.value.data();
     if (operators.needs_gradient) {
@@ -228,7 +228,7 @@ void ElementEvaluator::compute_operators() {
 
 void ElementEvaluator::compute_normal_operators(int p) {
   const ElementSide& side = element_.sides[side_blocks_[p].side];
-  const ShapeTable& table = *side.table[side_blocks_[p].states->space->order() - 1];
+  const ShapeTable& table = side.functions(side_blocks_[p].block, side_blocks_[p].states->space->order());
   Operators& operators = operators_[p];
   const int n = table.stride;
   operators.normal.assign(static_cast<std::size_t>(element_.points) * n, 0.0);

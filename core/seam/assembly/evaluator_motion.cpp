@@ -10,7 +10,7 @@ namespace seam {
 /// dG = (dD - G dJ) J^-1.
 void ElementEvaluator::compute_gradient_change(int p) {
   const ElementSide& side = element_.sides[side_blocks_[p].side];
-  const ShapeTable& table = *side.table[side_blocks_[p].states->space->order() - 1];
+  const ShapeTable& table = side.functions(side_blocks_[p].block, side_blocks_[p].states->space->order());
   const ShapeTable& map = *side.table[side.field->mesh().order() - 1];
   Operators& operators = operators_[p];
   const int n = table.stride;
@@ -84,7 +84,8 @@ void ElementEvaluator::compute_partner_motion() {
 const double* ElementEvaluator::shape_change(const Slot& slot, int p, int q, int j, int i) const {
   const SideBlock& side_block = side_blocks_[p];
   if (slot.shape == Shape::value) {
-    const ShapeTable& table = *element_.sides[side_block.side].table[side_block.states->space->order() - 1];
+    const ShapeTable& table =
+        element_.sides[side_block.side].functions(side_block.block, side_block.states->space->order());
     return table.gradient_at(q) + static_cast<std::ptrdiff_t>(j) * side_block.stride;
   }
   return &operators_[p]

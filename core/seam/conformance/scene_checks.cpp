@@ -68,6 +68,21 @@ class Undeclared {
   std::map<std::pair<Published::As, std::string>, std::string> units_;
 };
 
+std::vector<std::string> couplings_on(const Scene& scene, const std::string& interface) {
+  std::vector<std::string> types;
+  for (const Parameters& coupling : scene.root.list("coupling"))
+    if (coupling.text("on") == interface) types.push_back(coupling.type());
+  return types;
+}
+
+/// Of an unknown that a coupling has brought, `interface.name`: both parts.
+std::pair<std::string, std::string> brought_to(const Problem& problem, const std::string& unknown) {
+  const std::size_t dot = unknown.find('.');
+  const std::string interface = dot == std::string::npos ? "" : unknown.substr(0, dot);
+  if (interface.empty() || !problem.interfaces().contains(interface)) return {};
+  return {interface, unknown.substr(dot + 1)};
+}
+
 /// What `seam explain` says of the types against what the scene gets of them.
 ConformanceCheck check_published(const Scene& scene, const Registry& registry, Problem& problem) {
   std::string wrong;
@@ -76,7 +91,11 @@ ConformanceCheck check_published(const Scene& scene, const Registry& registry, P
     const Undeclared undeclared(registry, "field", {parameters.type()});
     const FieldEntry& entry = problem.field(name);
     for (const Unknown& unknown : entry.field->unknowns())
-      undeclared.find(Published::As::quantity, unknown.name, &unknown.unit, wrong);
+      if (const auto [interface, rest] = brought_to(problem, unknown.name); interface.empty())
+        undeclared.find(Published::As::quantity, unknown.name, &unknown.unit, wrong);
+      else
+        Undeclared(registry, "coupling", couplings_on(scene, interface))
+            .find(Published::As::quantity, rest, &unknown.unit, wrong);
     for (const FieldQuantity& output : entry.outputs)
       undeclared.find(Published::As::quantity, output.name, nullptr, wrong);
     for (const FieldQuantity& integral : entry.integrals)
@@ -84,10 +103,8 @@ ConformanceCheck check_published(const Scene& scene, const Registry& registry, P
     count += entry.field->unknowns().size() + entry.outputs.size() + entry.integrals.size();
   }
   for (const InterfaceMeasure& measure : problem.measures()) {
-    std::vector<std::string> types;
-    for (const Parameters& coupling : scene.root.list("coupling"))
-      if (coupling.text("on") == measure.interface) types.push_back(coupling.type());
-    Undeclared(registry, "coupling", types).find(Published::As::series, measure.name, nullptr, wrong);
+    Undeclared(registry, "coupling", couplings_on(scene, measure.interface))
+        .find(Published::As::series, measure.name, nullptr, wrong);
     ++count;
   }
   return conformance_check("quantities and series are declared", wrong.empty(),

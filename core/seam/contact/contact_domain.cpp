@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "seam/contact/left_out_nodes.hpp"
 #include "seam/mesh/quadrature.hpp"
 
 namespace seam {
@@ -27,21 +28,25 @@ std::vector<int> owned_facets(const BodySurface& surface) {
 }  // namespace
 
 ContactDomain::ContactDomain(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
-                             MovingSurface obstacle, ContactWindow window, int degree)
+                             ContactWindow window, int degree)
     : own_(std::move(own)),
       other_(std::move(other)),
-      obstacle_(std::move(obstacle)),
       window_(window),
-      passage_(own_, other_, window),
       rule_(
           &quadrature(own_->body().mesh().dimension() == 2 ? CellType::segment : CellType::triangle, degree)),
       facets_(owned_facets(*own_)),
-      movers_{{0, own_->displacement()}},
       of_side_{{own_->body(), own_->place()}} {
   measure_cells();
-  if (!other_) return;
-  movers_.push_back({1, other_->displacement()});
-  of_side_.emplace_back(other_->body(), other_->place());
+  if (other_) of_side_.emplace_back(other_->body(), other_->place());
+}
+
+ContactDomain::ContactDomain(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
+                             MovingSurface obstacle, ContactWindow window, int degree)
+    : ContactDomain(std::move(own), std::move(other), window, degree) {
+  obstacle_ = std::move(obstacle);
+  passage_ = std::make_unique<Passage>(own_, other_, window);
+  movers_.push_back({0, own_->displacement()});
+  if (other_) movers_.push_back({1, other_->displacement()});
 }
 
 void ContactDomain::measure_cells() {
@@ -63,15 +68,19 @@ std::vector<Field*> ContactDomain::fields() const {
 }
 
 bool ContactDomain::follow(double time) {
+  if (is_at_rest() && !elements_.empty()) return false;
   std::vector<Pairing> before;
   for (const PairPoints& points : elements_) before.push_back({points.facet, points.opposite_group});
   elements_.clear();
-  const OppositePoints opposite(*own_, other_.get(), opposite_at(time), window_);
+  const OppositePoints opposite =
+      is_at_rest() ? OppositePoints(*own_, other_.get(), own_->at_rest(), other_->at_rest(), window_)
+                   : OppositePoints(*own_, other_.get(), own_->now(), opposite_at(time), window_);
   for (const int facet : facets_) add_facet(opposite, facet);
+  if (is_at_rest()) return !elements_.empty();
   double least_gap = 0;
   for (const PairPoints& points : elements_)
     least_gap = std::min(least_gap, *std::ranges::min_element(points.gap));
-  passage_.check(opposite, own_->body().mesh().communicator().min(least_gap));
+  passage_->check(opposite, own_->body().mesh().communicator().min(least_gap));
   return !std::ranges::equal(before, elements_, [](const Pairing& pairing, const PairPoints& points) {
     return pairing == Pairing{points.facet, points.opposite_group};
   });
@@ -135,6 +144,7 @@ void ContactDomain::fill(int index, Element& element) const {
   element.sides.resize(other_ ? 2 : 1);
   own_->cell(points.group).attach(element.sides[0], own_->body());
   points.own.attach(element.sides[0], true);
+  hand_on_functions(own_->body(), own_->parent(points.facet).face, element.sides[0]);
   element.sides[0].map_geometry();
   if (other_) {
     other_->cell(points.opposite_group).attach(element.sides[1], other_->body());

@@ -16,8 +16,9 @@
 
 namespace seam {
 
-/// The points of a body's surface that have another surface opposite to them, in its current configuration.
-/// An element is a facet of this rank's cells with those points that share the cell opposite.
+/// The points of a body's surface that have another surface opposite to them, in its current configuration or
+/// for good in that at rest. An element is a facet of this rank's cells with those points that share the cell
+/// opposite.
 class ContactDomain final : public IntegrationDomain, public BeginsSteps {
  public:
   /// @param other null where the opposite surface is given
@@ -25,6 +26,9 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   /// @param degree to integrate exactly on a facet
   ContactDomain(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
                 MovingSurface obstacle, ContactWindow window, int degree);
+  /// Of two surfaces that lie on each other at rest.
+  ContactDomain(std::shared_ptr<const BodySurface> own, std::shared_ptr<const BodySurface> other,
+                ContactWindow window, int degree);
   [[nodiscard]] int size() const override { return static_cast<int>(elements_.size()); }
   [[nodiscard]] std::vector<Field*> fields() const override;
   void fill(int index, Element& element) const override;
@@ -32,7 +36,9 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] const std::vector<Operand>& movers() const override { return movers_; }
   /// @throws StepRefused when the surfaces have passed through each other
   bool follow(double time) override;
-  void begin_step(double from) override { passage_.begin_step(opposite_at(from)); }
+  void begin_step(double from) override {
+    if (passage_) passage_->begin_step(opposite_at(from));
+  }
   int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override;
   void forget_constants(bool new_step) override;
   [[nodiscard]] std::string description() const override;
@@ -49,6 +55,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
     friend bool operator==(const Pairing&, const Pairing&) = default;
   };
   [[nodiscard]] Surface opposite_at(double time) const { return other_ ? other_->now() : obstacle_(time); }
+  [[nodiscard]] bool is_at_rest() const { return passage_ == nullptr; }
   void measure_cells();
   void add_facet(const OppositePoints& opposite, int facet);
   template <int dim>
@@ -58,7 +65,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   std::shared_ptr<const BodySurface> own_, other_;
   MovingSurface obstacle_;
   ContactWindow window_;
-  Passage passage_;
+  std::unique_ptr<Passage> passage_;  ///< null where surfaces are at rest
   const Quadrature* rule_;
   std::vector<int> facets_;           ///< of this rank's cells
   std::map<int, double> trace_size_;  ///< of these: volume of the cell over the area of its face, m

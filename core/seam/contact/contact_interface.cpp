@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "seam/contact/contact_interface.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "seam/contact/contact_domain.hpp"
 #include "seam/contact/embedded_surface.hpp"
@@ -107,6 +107,71 @@ std::vector<InterfacePart> ObstacleInterface::build(InterfaceSetup& setup) const
                    window(parameters_, *own, false), setup.degree + setup.extra_degree + pressure_degree)}};
 }
 
+NonMatchingInterface::NonMatchingInterface(const Parameters& parameters) : parameters_(parameters) {
+  for (const char* key : {"fields", "boundaries"})
+    if (parameters_.names(key).size() != 2)
+      throw Error(parameters_.where(key),
+                  fmt::format("found {} names; an interface of type non_matching lies between two fields and "
+                              "has a boundary of each",
+                              parameters_.names(key).size()));
+  if (fields()[0] == fields()[1])
+    throw Error(
+        parameters_.where("fields"),
+        fmt::format(
+            "found '{}' twice; an interface of type non_matching lies between two fields. Boundaries of "
+            "one field are tied by the constraint `tied` or `periodic`",
+            fields()[0]));
+}
+
+Schema NonMatchingInterface::schema() {
+  Schema s(
+      "Two boundaries that lie on each other in the reference configuration, whose faces need not coincide.");
+  s.names("fields", "The two fields; the first one's points look for opposite ones").naming("field");
+  s.names("boundaries", "A boundary of the first field's mesh and one of the second's");
+  return s;
+}
+
+std::vector<InterfacePart> NonMatchingInterface::build(InterfaceSetup& setup) const {
+  std::vector<std::shared_ptr<const BodySurface>> surface;
+  for (int side = 0; side < 2; ++side) {
+    Field& field = *setup.sides[side];
+    const auto& known = field.mesh().boundaries();
+    if (!known.contains(boundaries(side).front())) {
+      std::vector<std::string> names;
+      for (const auto& entry : known) names.push_back(entry.first);
+      throw Error(parameters_.where("boundaries"),
+                  fmt::format("mesh '{}' of field '{}' has no boundary '{}'; it has: {}", field.mesh().name(),
+                              field.name(), boundaries(side).front(), fmt::join(names, ", ")));
+    }
+    const auto unknown = std::ranges::find_if(field.unknowns(), [&](const Unknown& u) {
+      return u.order == field.mesh().order() && !u.given && !u.boundaries;
+    });
+    if (unknown == field.unknowns().end())
+      throw Error(
+          parameters_.where("fields"),
+          fmt::format("the mesh of field '{}' has order {}, and so has none of its unknowns; give the "
+                      "mesh the order of one",
+                      field.name(), field.mesh().order()));
+    surface.push_back(std::make_shared<const BodySurface>(field, boundaries(side), unknown->name));
+  }
+  // Curved boundaries of different meshes are chords that lie apart by less than this.
+  double largest = 0;
+  for (const auto& one : surface)
+    for (int g = 0; g < one->group_count(); ++g) largest = std::max(largest, one->cell(g).diameter);
+  const auto domain = std::make_shared<ContactDomain>(
+      surface[0], surface[1], ContactWindow{largest / 2, largest / 2}, setup.degree + setup.extra_degree);
+  domain->follow(0);
+  if (setup.sides[0]->mesh().communicator().sum(static_cast<double>(domain->size())) == 0)
+    throw Error(
+        parameters_.where("boundaries"),
+        fmt::format("boundary '{}' of field '{}' and boundary '{}' of field '{}' do not lie on each other: "
+                    "no point of the first one has one of the second opposite to it, nearer than {:.3g} m, "
+                    "half a cell",
+                    boundaries(0).front(), setup.sides[0]->name(), boundaries(1).front(),
+                    setup.sides[1]->name(), largest / 2));
+  return {{"", domain}};
+}
+
 Schema EmbeddedContactInterface::schema() {
   Schema s("A deforming body's surface, cut out of a field's mesh, and what lies opposite to it.");
   s.reference("field", "The field outside the bodies", "field");
@@ -138,6 +203,9 @@ void register_contact(Registry& registry) {
   registry.add<Interface>(
       "interface", "contact", ContactInterface::schema(),
       [](const Parameters& p, const Registry&) { return std::make_unique<ContactInterface>(p); });
+  registry.add<Interface>(
+      "interface", "non_matching", NonMatchingInterface::schema(),
+      [](const Parameters& p, const Registry&) { return std::make_unique<NonMatchingInterface>(p); });
   registry.add<Interface>("interface", "obstacle", ObstacleInterface::schema(),
                           [](const Parameters& p, const Registry& types) {
                             return std::make_unique<ObstacleInterface>(p, types);

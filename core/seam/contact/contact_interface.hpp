@@ -22,6 +22,9 @@ class ContactInterface final : public Interface {
   [[nodiscard]] std::vector<std::string> fields() const override {
     return {parameters_.text("from"), parameters_.text("to")};
   }
+  [[nodiscard]] std::vector<std::string> boundaries(int side) const override {
+    return parameters_.names(side == 0 ? "boundaries" : "opposite");
+  }
   [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
@@ -35,11 +38,31 @@ class ObstacleInterface final : public Interface {
       : parameters_(parameters), obstacle_(parameters, types) {}
   static Schema schema();
   [[nodiscard]] std::vector<std::string> fields() const override { return {parameters_.text("from")}; }
+  [[nodiscard]] std::vector<std::string> boundaries(int) const override {
+    return parameters_.names("boundaries");
+  }
   [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
 
  private:
   Parameters parameters_;
   MovingBody obstacle_;
+};
+
+/// Two boundaries that lie on each other in the reference configuration, whose faces need not be alike: of
+/// each point of side 0 that opposite to it on side 1, for good. Points without an opposite one are no part
+/// of it.
+class NonMatchingInterface final : public Interface {
+ public:
+  explicit NonMatchingInterface(const Parameters& parameters);
+  static Schema schema();
+  [[nodiscard]] std::vector<std::string> fields() const override { return parameters_.names("fields"); }
+  [[nodiscard]] std::vector<std::string> boundaries(int side) const override {
+    return {parameters_.names("boundaries")[side]};
+  }
+  [[nodiscard]] std::vector<InterfacePart> build(InterfaceSetup& setup) const override;
+
+ private:
+  Parameters parameters_;
 };
 
 /// A deforming body's surface in a field out of whose mesh it is cut, and what lies opposite to it there.
@@ -63,7 +86,7 @@ class EmbeddedContactInterface final : public Interface {
   Parameters parameters_;
 };
 
-/// Registers "contact", "obstacle" and "embedded_contact".
+/// Registers "contact", "obstacle", "non_matching" and "embedded_contact".
 void register_contact(Registry& registry);
 
 }  // namespace seam

@@ -45,7 +45,7 @@ bool EmbeddedSurface::follow() {
   for (auto& of_part : elements_) of_part.clear();
   for (auto& of_part : wet_points_) of_part.clear();
   wet_.clear();
-  const OppositePoints opposite(*own_, other_.get(), other_->now(), window_);
+  const OppositePoints opposite(*own_, other_.get(), own_->now(), other_->now(), window_);
   if (field_->cut())
     for (const int cell : field_->cut()->cut_cells()) {
       if (cell >= field_->mesh().owned_cells() || !field_->active_cells()[cell]) continue;

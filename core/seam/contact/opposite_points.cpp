@@ -11,11 +11,11 @@ namespace seam {
 
 using namespace cutting;
 
-OppositePoints::OppositePoints(const BodySurface& own, const BodySurface* other, Surface opposite,
-                               ContactWindow window)
+OppositePoints::OppositePoints(const BodySurface& own, const BodySurface* other, Surface surface,
+                               Surface opposite, ContactWindow window)
     : own_(&own),
       is_itself_(other == &own),
-      surface_(own.now()),
+      surface_(std::move(surface)),
       search_(std::move(opposite)),
       window_(window) {}
 

@@ -22,8 +22,9 @@ struct ContactWindow {
 class OppositePoints {
  public:
   /// @param other null where the opposite surface is given
-  /// @param opposite the other surface as it is now
-  OppositePoints(const BodySurface& own, const BodySurface* other, Surface opposite, ContactWindow window);
+  /// @param surface, opposite the two surfaces as they are now
+  OppositePoints(const BodySurface& own, const BodySurface* other, Surface surface, Surface opposite,
+                 ContactWindow window);
 
   struct Hit {
     int own_facet, facet;  ///< of the two surfaces

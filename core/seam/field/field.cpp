@@ -7,21 +7,29 @@
 
 #include "seam/base/diagnostics.hpp"
 #include "seam/cut/cut_mesh.hpp"
+#include "seam/field/surface_nodes.hpp"
 #include "seam/state/state_store.hpp"
 
 namespace seam {
 
 namespace {
 
+using Boundaries = std::optional<std::vector<std::string>>;
+
 /// What the states of a block are called, without their levels.
-std::string states_of(const std::string& field, bool given, int order) {
-  return fmt::format("{}/{}order {}", field, given ? "given, " : "", order);
+std::string states_of(const std::string& field, bool given, int order, const Boundaries& boundaries) {
+  return fmt::format("{}/{}order {}{}", field, given ? "given, " : "", order,
+                     boundaries ? fmt::format(" on [{}]", fmt::join(*boundaries, ", ")) : "");
+}
+std::string states_of(const std::string& field, const Block& block) {
+  return states_of(field, block.given, block.space->order(), block.boundaries);
 }
 
 /// Unknowns that will share a block.
 struct Shared {
   int order;
   bool given;
+  Boundaries boundaries;
   std::vector<int> components, time_order;
 };
 
@@ -69,19 +77,52 @@ Field::Field(std::string name, const Mesh& mesh, std::vector<Unknown> unknowns, 
   state_->keep(layout_);
   std::vector<Shared> shared;
   for (const Unknown& unknown : unknowns_) {
-    const auto found = std::ranges::find_if(
-        shared, [&](const Shared& s) { return s.order == unknown.order && s.given == unknown.given; });
+    const auto found = std::ranges::find_if(shared, [&](const Shared& s) {
+      return s.order == unknown.order && s.given == unknown.given && s.boundaries == unknown.boundaries;
+    });
     const auto b = static_cast<int>(found - shared.begin());
-    if (found == shared.end()) shared.push_back({unknown.order, unknown.given, {}, {}});
+    if (found == shared.end()) shared.push_back({unknown.order, unknown.given, unknown.boundaries, {}, {}});
     places_.push_back({b, static_cast<int>(shared[b].time_order.size()), unknown.components});
     shared[b].components.push_back(unknown.components);
     shared[b].time_order.insert(shared[b].time_order.end(), unknown.components, unknown.time_order);
   }
   for (Shared& s : shared) {
-    blocks_.emplace_back(*state_, states_of(name_, s.given, s.order),
-                         std::make_unique<Space>(mesh, s.order, sets), s.given, std::move(s.components),
-                         std::move(s.time_order));
-    resize(blocks_.back());
+    Block& block = blocks_.emplace_back(*state_, states_of(name_, s.given, s.order, s.boundaries),
+                                        std::make_unique<Space>(mesh, s.order, sets), s.given,
+                                        std::move(s.components), std::move(s.time_order));
+    block.boundaries = std::move(s.boundaries);
+    if (block.boundaries) block.surface_share = surface_shares(*block.space, *block.boundaries);
+    resize(block);
+    if (block.boundaries) mark_surface(block);
+  }
+}
+
+/// Unknowns of a surface are active on it alone.
+void Field::mark_surface(Block& block) {
+  for (int node = 0; node < block.space->nodes(); ++node)
+    if (block.surface_share[node] == 0 || block.left_out[node] != 0) block.active[node] = 0;
+}
+
+void Field::leave_out(int block, const std::vector<int>& nodes) {
+  Block& of = blocks_[block];
+  for (const int node : nodes) of.left_out[node] = 1;
+  of.space->halo().update(of.left_out, 1);
+  of.beside_left_out = nodes_beside(*of.space, *of.boundaries, of.left_out);
+  mark_surface(of);
+}
+
+void Field::show_left_out() {
+  for (Block& block : blocks_) {
+    if (!block.boundaries) continue;
+    for (std::size_t node = 0; node < block.beside_left_out.size(); ++node)
+      for (int c = 0; c < block.size && !block.beside_left_out[node].empty(); ++c) {
+        double sum = 0;
+        for (const int other : block.beside_left_out[node])
+          sum += block.now.value[static_cast<std::size_t>(other) * block.size + c];
+        block.now.value[node * block.size + c] =
+            sum / static_cast<double>(block.beside_left_out[node].size());
+      }
+    block.space->halo().update(block.now.value, block.size);
   }
 }
 
@@ -92,6 +133,10 @@ void Field::resize(Block& block) const {
   const std::size_t n = static_cast<std::size_t>(block.space->nodes()) * block.size;
   block.active.resize(block.space->nodes(), block.given ? 0 : 1);
   block.prescribed.resize(n, 0);
+  if (block.boundaries) {
+    block.surface_share.resize(block.space->nodes(), 0.0);
+    block.left_out.resize(block.space->nodes(), 0);
+  }
   for (auto* level : {&block.prescribed_value, &block.prescribed_rate, &block.prescribed_second_rate})
     level->resize(n, 0.0);
 }
@@ -100,8 +145,8 @@ void Field::keep_momentum() {
   for (Block& block : blocks_) {
     if (block.momentum_of != nullptr || block.given) continue;
     const auto add = [&](const char* what, int levels) -> StateArray<double>& {
-      return state_->add<double>({states_of(name_, block.given, block.space->order()) + "/" + what,
-                                  nodes_of(*block.space), block.size, levels});
+      return state_->add<double>(
+          {states_of(name_, block) + "/" + what, nodes_of(*block.space), block.size, levels});
     };
     StateArray<double>& rate = add("rate of handed momentum", 2);
     block.now.momentum_rate = &rate.now();
@@ -113,8 +158,8 @@ void Field::keep_momentum() {
 void Field::keep_mean_rates() {
   for (Block& block : blocks_) {
     const auto add = [&](const char* level) -> StateArray<double>& {
-      return state_->add<double>({states_of(name_, block.given, block.space->order()) + "/" + level,
-                                  nodes_of(*block.space), block.size, 2, WhenUncovered::extended});
+      return state_->add<double>({states_of(name_, block) + "/" + level, nodes_of(*block.space), block.size,
+                                  2, WhenUncovered::extended});
     };
     StateArray<double>&mean = add("mean rate"), &second = add("mean second rate");
     block.now.mean_rate = &mean.now();
@@ -135,8 +180,13 @@ void Field::remember_cut_faces() {
 }
 
 void Field::add_foreign(int block, const std::vector<Space::ForeignNode>& nodes) {
-  blocks_[block].space->add_foreign(nodes);
-  resize(blocks_[block]);
+  Block& of = blocks_[block];
+  of.space->add_foreign(nodes);
+  resize(of);
+  if (!of.boundaries) return;
+  of.space->halo().update(of.surface_share, 1);
+  of.space->halo().update(of.left_out, 1);
+  mark_surface(of);
 }
 
 int Field::order() const {
@@ -176,6 +226,7 @@ void Field::occupy(std::vector<char> cell_is_active, const CutMesh* cut) {
         const int* nodes = cell_nodes(static_cast<int>(b), c, p);
         for (int a = 0; a < block.space->nodes_per_cell(); ++a) block.active[nodes[a]] = 1;
       }
+    if (block.boundaries) mark_surface(block);
     // The owner knows every cell of its nodes; a rank's outermost ghosts do not.
     block.space->halo().update(block.active, 1);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,9 @@ struct NodalState {
   std::vector<double>* momentum_rate = nullptr;
 };
 
-/// All unknowns of a field that share a Lagrange space; given ones have a block of their own. Those of a node
-/// are contiguous. The states cover every node of the mesh, active or not, so that a changing set of active
-/// unknowns leaves them in place.
+/// All unknowns of a field that share a Lagrange space; given ones have a block of their own, and so have
+/// those of the same parts of the boundary. Those of a node are contiguous. The states cover every node of
+/// the mesh, active or not, so that a changing set of active unknowns leaves them in place.
 struct Block {
   /// @param name of its states @param time_order per component
   Block(StateStore& store, const std::string& name, std::unique_ptr<Space> on, bool is_given,
@@ -53,6 +54,12 @@ struct Block {
   /// Per unknown of a local node: a number that tells what hands momentum on to it; null where nothing does.
   std::vector<double>* momentum_of = nullptr;
   std::vector<int> components;  ///< of each unknown
+  /// Parts of the boundary on which its unknowns live, see Unknown; null: on all of the mesh.
+  std::optional<std::vector<std::string>> boundaries;
+  /// Per local node, where they live on boundaries: how much of these it stands for, see surface_shares().
+  std::vector<double> surface_share;
+  std::vector<char> left_out;  ///< the same: nodes without unknowns, see Unknown::multiplier_of
+  std::vector<std::vector<int>> beside_left_out;  ///< [owned node]: those that have them; empty without any
 
   /// @param nodes of a cell
   [[nodiscard]] bool knows_any(const int* nodes) const {
@@ -151,6 +158,13 @@ class Field {
   /// Collective. Makes nodes of other ranks' cells known here, for an interface (see Space::add_foreign).
   void add_foreign(int block, const std::vector<Space::ForeignNode>& nodes);
 
+  /// Takes the unknowns of some nodes out of a block that lives on boundaries. Collective.
+  /// @param nodes local ones, of which those owned count
+  void leave_out(int block, const std::vector<int>& nodes);
+  /// Gives nodes that were left out the mean value of those beside them: nothing but pictures reads it.
+  /// Collective.
+  void show_left_out();
+
   /// Restricts the field to some of its cells: a node is active exactly where one of them, or
   /// a part of one, has it. Collective.
   /// @param cell_is_active per local cell, ghosts included
@@ -177,6 +191,7 @@ class Field {
 
  private:
   void resize(Block& block) const;
+  static void mark_surface(Block& block);
   std::unique_ptr<StateStore> state_;
   std::string name_;
   const Mesh* mesh_;

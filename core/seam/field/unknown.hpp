@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace seam {
+
+class RowLaw;
 
 /// What an unknown is among those of its field.
 enum class UnknownRole {
@@ -40,6 +45,16 @@ struct Unknown {
   /// Nodal data instead of an unknown of the system: terms read it as any other, its values follow from
   /// FieldSetup::give at each step.
   bool given = false;
+  /// Where it lives: on all of the mesh, or on the nodes of these parts of its boundary alone, of its whole
+  /// outer surface where the list is empty. Terms read it as any other; its functions are those of the mesh's
+  /// Lagrange space that do not vanish there.
+  std::optional<std::vector<std::string>> boundaries = {};
+  /// Unknown of its field that its equations hold, if they do: where this is given already, or where parts of
+  /// the boundary with such multipliers meet, nodes have none of it, and those beside them take over their
+  /// functions.
+  std::string multiplier_of = {};
+  /// What becomes of its equations; null: what terms assemble is zero.
+  std::shared_ptr<const RowLaw> law = {};
 };
 
 }  // namespace seam

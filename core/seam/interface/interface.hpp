@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "seam/field/unknown.hpp"
 #include "seam/scene/parameters.hpp"
 #include "seam/surface/body.hpp"
 #include "seam/term/term.hpp"
@@ -99,6 +100,15 @@ class Coupling {
   };
   /// How many degrees more than products of the unknowns' functions the interface should integrate exactly.
   [[nodiscard]] virtual int extra_degree(int /*dimension*/) const { return 0; }
+  /// Unknowns that it brings: more of a side's field, on that side's part of the interface alone, as
+  /// multipliers are. Their names are `interface.name`, as those of measures.
+  /// @param of_field those that the side's physics has
+  /// @return of each where it lives follows from the interface
+  [[nodiscard]] virtual std::vector<Unknown> unknowns(int side, int dimension,
+                                                      const std::vector<Unknown>& of_field) const {
+    (void)side, (void)dimension, (void)of_field;
+    return {};
+  }
   /// @throws Error when the sides lack an unknown it needs, naming the field and the unknown
   [[nodiscard]] virtual std::vector<SideTerm> terms(const CouplingSides& sides) const = 0;
   /// A surface term of a side's physics (FieldSetup::add_surface_term) that the coupling brings at its own

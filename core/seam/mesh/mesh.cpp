@@ -134,7 +134,7 @@ void Mesh::find_faces() const {
     if (k + 1 < keys.size() && keys[k].vertices == keys[k + 1].vertices) {
       if (owned) interior_faces_.push_back({{keys[k].face, keys[k + 1].face}});
       ++k;
-    } else if (owned) {
+    } else {
       outer_faces_.push_back(keys[k].face);
     }
   }

@@ -53,7 +53,8 @@ class Mesh {
     CellFace side[2];
   };
   [[nodiscard]] const std::vector<InteriorFace>& interior_faces() const;
-  /// Faces of owned cells with nothing behind them, named or not. Built at the first call.
+  /// Faces with no local cell behind them, named or not, those of owned cells first: there nothing is behind
+  /// them. Built at the first call.
   [[nodiscard]] const std::vector<CellFace>& outer_faces() const;
 
   /// The undistributed mesh, kept for as long as the mesh: surfaces and spaces read it.

@@ -8,7 +8,7 @@ namespace seam {
 /// Changes when a plugin must be rebuilt (major), or when something is added that older plugins do not miss
 /// (minor). Which public headers go with a number, abi.txt in this folder says by a hash, which
 /// tools/headers.py writes there.
-inline constexpr std::uint16_t plugin_abi_major = 19;
+inline constexpr std::uint16_t plugin_abi_major = 20;
 inline constexpr std::uint16_t plugin_abi_minor = 0;
 
 /// Describes a plugin without running any of its code: it lies in an ELF note section of the shared library

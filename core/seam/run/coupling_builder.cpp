@@ -92,17 +92,6 @@ bool next_regions(CouplingSides& sides) {
   return false;
 }
 
-/// A coupling of the scene, and what the scene says of it.
-struct SceneCoupling {
-  Parameters parameters;
-  std::unique_ptr<Coupling> coupling;
-
-  [[nodiscard]] const std::string& on() const { return parameters.text("on"); }
-  [[nodiscard]] std::string describe() const {
-    return fmt::format("coupling '{}' on '{}'{}", parameters.type(), on(), plugin_of(*coupling));
-  }
-};
-
 /// Binds the terms and measures of one coupling to the points of its interface.
 class CouplingBinder {
  public:
@@ -173,8 +162,8 @@ std::map<std::string, BuiltInterface> build_interfaces(const Scene& scene, Built
 }
 
 /// Lets each coupling look at all others. @throws Error where they do not go together, by `errors`
-void check_neighbours(const std::vector<SceneCoupling>& couplings, const BuiltScene& built,
-                      ErrorList& errors) {
+void check_neighbours(const BuiltScene& built, ErrorList& errors) {
+  const std::vector<SceneCoupling>& couplings = built.couplings;
   std::vector<Coupling::Neighbour> neighbours;
   for (const SceneCoupling& of : couplings)
     for (const auto& [name, interface] : built.interfaces)
@@ -185,21 +174,46 @@ void check_neighbours(const std::vector<SceneCoupling>& couplings, const BuiltSc
 
 }  // namespace
 
-void build_couplings(const Scene& scene, const Registry& registry, BuiltScene& built) {
+std::string SceneCoupling::describe() const {
+  return fmt::format("coupling '{}' on '{}'{}", parameters.type(), on(), plugin_of(*coupling));
+}
+
+std::vector<Unknown> unknowns_of_couplings(const BuiltScene& built, const std::string& field, int dimension,
+                                           const std::vector<Unknown>& of_physics) {
+  std::vector<Unknown> result;
+  for (const SceneCoupling& of : built.couplings) {
+    const auto on =
+        std::ranges::find(built.interfaces, of.on(), [](const auto& named) { return named.first; });
+    if (on == built.interfaces.end()) continue;
+    const Interface& interface = *on->second;
+    call_plugin(
+        of.parameters.where(), [&] { return of.describe(); },
+        [&] {
+          const std::vector<std::string> fields = interface.fields();
+          for (int side = 0; side < static_cast<int>(fields.size()); ++side) {
+            if (fields[side] != field) continue;
+            for (Unknown& brought : of.coupling->unknowns(side, dimension, of_physics)) {
+              brought.boundaries = interface.boundaries(side);
+              result.push_back(std::move(brought));
+            }
+          }
+        });
+  }
+  return result;
+}
+
+void build_couplings(const Scene& scene, BuiltScene& built) {
   const int dimension = static_cast<int>(scene.root.integer("dimension"));
-  std::vector<SceneCoupling> couplings;
   std::map<std::string, int> extra_degree;  // by interface
   ErrorList errors(built.problem->communicator());
-  for (const Parameters& parameters : scene.root.list("coupling"))
-    errors.attempt([&] {
-      couplings.push_back({parameters, registry.create<Coupling>("coupling", parameters)});
-      int& most = extra_degree[parameters.text("on")];
-      most = std::max(most, couplings.back().coupling->extra_degree(dimension));
-    });
+  for (const SceneCoupling& of : built.couplings) {
+    int& most = extra_degree[of.on()];
+    most = std::max(most, of.coupling->extra_degree(dimension));
+  }
   const std::map<std::string, BuiltInterface> interfaces =
       build_interfaces(scene, built, extra_degree, errors);
-  check_neighbours(couplings, built, errors);
-  for (const SceneCoupling& of : couplings)
+  check_neighbours(built, errors);
+  for (const SceneCoupling& of : built.couplings)
     errors.attempt([&] {
       call_plugin(
           of.parameters.where(), [&] { return of.describe(); },

@@ -78,7 +78,7 @@ std::vector<double> cell_costs(const Scene& scene, const BuiltScene& built, cons
   return bodies.empty() ? std::vector<double>{} : cut_cell_costs(whole, bodies);
 }
 
-void add_field(Problem& problem, const std::string& name, const Parameters& parameters,
+void add_field(BuiltScene& built, const std::string& name, const Parameters& parameters,
                const std::shared_ptr<const Mesh>& mesh, const Registry& registry) {
   auto physics = registry.create<Physics>("field", parameters);
   const std::string plugin = plugin_of(*physics);
@@ -86,7 +86,9 @@ void add_field(Problem& problem, const std::string& name, const Parameters& para
       parameters.where(), [&] { return fmt::format("field '{}'{}", name, plugin); },
       [&] {
         require_allowed_unknowns(*physics, mesh->whole(), parameters.where());
-        problem.add_field(name, mesh, std::move(physics), parameters.where());
+        const std::vector<Unknown> brought =
+            unknowns_of_couplings(built, name, mesh->dimension(), physics->unknowns(mesh->dimension()));
+        built.problem->add_field(name, mesh, std::move(physics), parameters.where(), brought);
       });
 }
 
@@ -111,6 +113,10 @@ BuiltScene build_scene(const Scene& scene, const Registry& registry, const Commu
     errors.attempt([&, &called = name, &of = parameters] {
       built.interfaces.emplace_back(called, registry.create<Interface>("interface", of));
     });
+  for (const Parameters& parameters : scene.root.list("coupling"))
+    errors.attempt([&] {
+      built.couplings.push_back({parameters, registry.create<Coupling>("coupling", parameters)});
+    });
   std::map<std::string, std::shared_ptr<const Mesh>> distributed;
   for (const auto& [name, parameters] : scene.root.map("fields")) {
     const std::string& mesh = parameters.text("mesh");
@@ -123,11 +129,11 @@ BuiltScene build_scene(const Scene& scene, const Registry& registry, const Commu
           });
     errors.attempt([&, &called = name, &of = parameters] {
       needing_memory(fmt::format("the unknowns of the field '{}'", called), of.where(),
-                     [&] { add_field(*built.problem, called, of, distributed[mesh], registry); });
+                     [&] { add_field(built, called, of, distributed[mesh], registry); });
     });
   }
   errors.throw_if_any();
-  build_couplings(scene, registry, built);
+  build_couplings(scene, built);
   for (const Parameters& parameters : scene.root.list("constraints"))
     errors.attempt([&] { add_constraint(*built.problem, parameters, registry); });
   errors.throw_if_any();

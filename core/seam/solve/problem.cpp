@@ -20,6 +20,7 @@
 #include "seam/cut/field_cut.hpp"
 #include "seam/field/field.hpp"
 #include "seam/field/part_layout.hpp"
+#include "seam/field/row_law.hpp"
 #include "seam/interface/begins_steps.hpp"
 #include "seam/mesh/mesh.hpp"
 #include "seam/physics/completes_start.hpp"
@@ -117,10 +118,12 @@ void carry_rates_of(const BoundTerm& bound, const std::vector<Field*>& fields) {
   }
 }
 
-/// What a physics declares of its unknowns.
+/// What a physics declares of its unknowns, and those that couplings bring.
 /// @throws PluginFault for what cannot be
-std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
+std::vector<Unknown> declared_unknowns(const FieldEntry& entry, const std::vector<Unknown>& brought,
+                                       int dimension) {
   std::vector<Unknown> unknowns = entry.physics->unknowns(dimension);
+  unknowns.insert(unknowns.end(), brought.begin(), brought.end());
   std::set<std::string> names;
   for (const Unknown& u : unknowns) {
     std::string wrong;
@@ -132,6 +135,8 @@ std::vector<Unknown> declared_unknowns(const FieldEntry& entry, int dimension) {
       wrong = fmt::format("has time_order {}; there are 0, 1 and 2", u.time_order);
     if (u.near_nullspace == NearNullspace::rigid_motions && u.components != dimension)
       wrong = fmt::format("has {} components: rigid motions have {}", u.components, dimension);
+    if (u.law && u.law->components() != u.components)
+      wrong = fmt::format("has {} components; its law is one of {}", u.components, u.law->components());
     if (!(u.scale >= 0)) wrong = fmt::format("has the scale {}; 0 says that it has none", u.scale);
     if (!u.name.empty() && u.name == entry.physics->displacement() && u.role != UnknownRole::motion)
       wrong = "is the displacement of its mesh and does not say so: UnknownRole::motion";
@@ -200,6 +205,37 @@ class FieldsForConstraint final : public ConstraintSetup {
   Problem& problem_;
 };
 
+/// Where what a multiplier holds is given already, or two of them would hold the same, there is none.
+/// Collective.
+void leave_out_multipliers(Field& field) {
+  std::map<std::pair<std::string, int>, std::set<int>> holders;  // by unknown and global node: blocks
+  const auto for_each = [&](const auto& use) {
+    for (const Unknown& unknown : field.unknowns()) {
+      if (!unknown.boundaries || unknown.multiplier_of.empty()) continue;
+      const int number = field.place(unknown.name).block;
+      const Block& block = field.blocks()[number];
+      for (int node = 0; node < block.space->owned_nodes(); ++node)
+        if (block.surface_share[node] > 0) use(unknown, number, block, node);
+    }
+  };
+  for_each([&](const Unknown& unknown, int number, const Block& block, int node) {
+    holders[{unknown.multiplier_of, block.space->global_node(node)}].insert(number);
+  });
+  std::map<int, std::vector<int>> left_out;  // by block
+  for_each([&](const Unknown& unknown, int number, const Block& block, int node) {
+    const Field::ComponentRange held = field.place(unknown.multiplier_of);
+    const Block& of = field.blocks()[held.block];
+    const int global = block.space->global_node(node);
+    bool is_given = holders.at({unknown.multiplier_of, global}).size() > 1;
+    if (const int there = of.space->local_node(global); there >= 0)
+      for (int c = held.offset; c < held.offset + held.components; ++c)
+        is_given = is_given || of.prescribed[static_cast<std::size_t>(there) * of.size + c] != 0;
+    if (is_given) left_out[number].push_back(node);
+  });
+  for (std::size_t b = 0; b < field.blocks().size(); ++b)
+    if (field.blocks()[b].boundaries) field.leave_out(static_cast<int>(b), left_out[static_cast<int>(b)]);
+}
+
 /// Work on a domain, which may be a plugin's: one that fails on a rank of its own would leave the others
 /// waiting.
 void attempt(const Communicator& communicator, const IntegrationDomain& domain,
@@ -221,7 +257,8 @@ Problem::Problem(const Communicator& communicator) : communicator_(communicator)
 Problem::~Problem() = default;
 
 Field& Problem::add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
-                          std::unique_ptr<Physics> physics, const Location& where) {
+                          std::unique_ptr<Physics> physics, const Location& where,
+                          const std::vector<Unknown>& brought) {
   FieldEntry& entry = fields_.emplace_back();
   entry.name = name;
   entry.where = where;
@@ -229,7 +266,7 @@ Field& Problem::add_field(const std::string& name, const std::shared_ptr<const M
   entry.mesh = mesh;
   entry.physics = std::move(physics);
   FieldBuilder builder(entry, domains_);
-  std::vector<Unknown> unknowns = declared_unknowns(entry, mesh->dimension());
+  std::vector<Unknown> unknowns = declared_unknowns(entry, brought, mesh->dimension());
   if (entry.physics->support() == Support::point) {
     entry.mesh = point_mesh(*mesh, builder);
     // Its mesh has no size: motions are measured by the radius of gyration of its shape.
@@ -306,6 +343,7 @@ void Problem::finish(double time, bool shape_derivatives) {
         block.prescribed[static_cast<std::size_t>(node) * block.size + condition.component] = 1;
     }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
+    leave_out_multipliers(*entry.field);
     place_levels(fields_, joins_, entry);
     for (const LevelCondition& level : entry.levels)
       if (entry.cut) entry.cut->keep_at(level.open_boundaries);

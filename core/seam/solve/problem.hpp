@@ -116,10 +116,12 @@ class Problem {
   Problem& operator=(const Problem&) = delete;
 
   /// Adds a field and lets its physics declare its terms. Collective.
+  /// @param brought unknowns that couplings bring to it
   /// @throws Error when two conditions claim the same unknown on the same boundary
   /// @throws PluginFault when what the physics declares cannot be
   Field& add_field(const std::string& name, const std::shared_ptr<const Mesh>& mesh,
-                   std::unique_ptr<Physics> physics, const Location& where = {});
+                   std::unique_ptr<Physics> physics, const Location& where = {},
+                   const std::vector<Unknown>& brought = {});
   /// Adds terms on an interface between fields.
   void add_coupling(std::shared_ptr<IntegrationDomain> interface, std::vector<BoundTerm> terms);
   /// Leaves a surface term of a field out where a coupling brings it.

@@ -36,6 +36,7 @@ class BodySurface {
 
   /// As it is deformed now.
   [[nodiscard]] Surface now() const;
+  [[nodiscard]] const Surface& at_rest() const { return boundary_.surface; }
   [[nodiscard]] int facet_count() const { return boundary_.surface.facet_count(); }
   [[nodiscard]] Field& body() const { return *body_; }
   [[nodiscard]] const std::string& displacement() const { return displacement_; }

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "seam/plugin/registry.hpp"
+
+namespace seam::mortar {
+
+/// The coupling `mortar_tie`.
+void declare_tie(Registry& registry);
+
+}  // namespace seam::mortar
