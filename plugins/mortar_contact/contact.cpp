@@ -20,12 +20,12 @@ using Slave = Vector<0>;
 using Pressure = Scalar<1>;
 using Master = Vector<2>;
 
-/// Keeps bodies from overlapping by the pressure p on the slave's current surface, with its outward normal n:
+/// The pressure p on the slave's surface as it is deformed, with its outward normal n:
 ///
-///   <du - du', p n> - <dp, c g>
+///   <du - du', p n> - <dp, g>
 ///
-/// du' at the point opposite, g the gap. What the second term makes up about a node, minus c times its
-/// weighted gap, becomes an equation by NoOverlap.
+/// du' at the point opposite, g the gap. What the second term makes up about a node, minus its weighted gap,
+/// becomes an equation by the contact law.
 template <int sides>
 struct Pressed {
   using Reads = Slots<Value<Pressure>>;
@@ -83,15 +83,13 @@ struct State {
 
 /// The stiffness of a body at rest in compression without lateral strain, Pa; 0 where it has no stress.
 double modulus(const CouplingSides& sides, int side, int dimension) {
-  for (const char* name : {"stress", "skeleton"})
-    if (const auto law = sides.law(side, name)) {
-      const std::size_t n = static_cast<std::size_t>(dimension) * dimension;
-      const std::vector<double> rest(n, 0.0);
-      std::vector<double> value(n), first(n * n);
-      law->evaluate(dimension, rest.data(), value.data(), first.data(), nullptr);
-      return first[0];
-    }
-  return 0;
+  const auto law = sides.law(side, "stress");
+  if (!law) return 0;
+  const std::size_t n = static_cast<std::size_t>(dimension) * dimension;
+  const std::vector<double> rest(n, 0.0);
+  std::vector<double> value(n), first(n * n);
+  law->evaluate(dimension, rest.data(), value.data(), first.data(), nullptr);
+  return first[0];
 }
 
 /// Of the largest cell, m. Collective.

@@ -87,6 +87,25 @@ TEST_CASE("blocks between walls are tied where nodes match and where they do not
   CHECK(std::abs(run.series("seam.force.y").back() + top) < 1e-11);
 }
 
+TEST_CASE("blocks between planes of symmetry are tied as between walls") {
+  std::string text = blocks(4, 4, tie);
+  const std::string wall = "      - {on: [x_min, x_max], displacement: [0, null]}\n";
+  for (std::size_t at = text.find(wall); at != std::string::npos; at = text.find(wall))
+    text.erase(at, wall.size());
+  text += R"scene(
+constraints:
+  - {type: symmetry, field: lower, boundaries: [x_min, x_max]}
+  - {type: symmetry, field: upper, boundaries: [x_min, x_max]}
+)scene";
+  const Run run(text);
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  const double top = run.series("top").back();
+  CHECK(top < -1);
+  CHECK(std::abs(run.series("middle").back() + top) < 1e-11);
+  CHECK(std::abs(run.series("wall").back() + top) < 1e-11);
+}
+
 TEST_CASE("a pressure between blocks is uniform, of the first order and of the second") {
   const int order = GENERATE(1, 2);
   CAPTURE(order);

@@ -106,7 +106,8 @@ class Symmetry final : public Constraint {
   [[nodiscard]] std::string only_vector() const {
     std::vector<std::string> found;
     for (const Unknown& unknown : field_->unknowns())
-      if (!unknown.given && unknown.components == field_->mesh().dimension()) found.push_back(unknown.name);
+      if (!unknown.given && !unknown.boundaries && unknown.components == field_->mesh().dimension())
+        found.push_back(unknown.name);
     if (found.size() == 1) return found.front();
     throw Error(where_, fmt::format("field '{}' has {} vectors ({}): name one by `unknown`", name_,
                                     found.size(), fmt::join(found, ", ")));

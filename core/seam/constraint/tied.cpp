@@ -130,7 +130,7 @@ class Tied final : public Constraint, public JoinsFields {
                         field->name()));
     if (unknowns_.empty())
       for (const Unknown& unknown : tied_->unknowns())
-        if (!unknown.given) unknowns_.push_back(unknown.name);
+        if (!unknown.given && !unknown.boundaries) unknowns_.push_back(unknown.name);
     static_cast<void>(master_->mesh().boundary(boundaries_[1]));  // throws when there is none
     const FacesNearby faces(master_->mesh().whole(), master_->mesh().whole().boundaries.at(boundaries_[1]));
     for (const std::string& unknown : unknowns_) {

@@ -27,6 +27,7 @@
 #include "seam/solve/body_rates.hpp"
 #include "seam/solve/field_builder.hpp"
 #include "seam/solve/level.hpp"
+#include "seam/solve/multipliers.hpp"
 
 namespace seam {
 namespace {
@@ -205,37 +206,6 @@ class FieldsForConstraint final : public ConstraintSetup {
   Problem& problem_;
 };
 
-/// Where what a multiplier holds is given already, or two of them would hold the same, there is none.
-/// Collective.
-void leave_out_multipliers(Field& field) {
-  std::map<std::pair<std::string, int>, std::set<int>> holders;  // by unknown and global node: blocks
-  const auto for_each = [&](const auto& use) {
-    for (const Unknown& unknown : field.unknowns()) {
-      if (!unknown.boundaries || unknown.multiplier_of.empty()) continue;
-      const int number = field.place(unknown.name).block;
-      const Block& block = field.blocks()[number];
-      for (int node = 0; node < block.space->owned_nodes(); ++node)
-        if (block.surface_share[node] > 0) use(unknown, number, block, node);
-    }
-  };
-  for_each([&](const Unknown& unknown, int number, const Block& block, int node) {
-    holders[{unknown.multiplier_of, block.space->global_node(node)}].insert(number);
-  });
-  std::map<int, std::vector<int>> left_out;  // by block
-  for_each([&](const Unknown& unknown, int number, const Block& block, int node) {
-    const Field::ComponentRange held = field.place(unknown.multiplier_of);
-    const Block& of = field.blocks()[held.block];
-    const int global = block.space->global_node(node);
-    bool is_given = holders.at({unknown.multiplier_of, global}).size() > 1;
-    if (const int there = of.space->local_node(global); there >= 0)
-      for (int c = held.offset; c < held.offset + held.components; ++c)
-        is_given = is_given || of.prescribed[static_cast<std::size_t>(there) * of.size + c] != 0;
-    if (is_given) left_out[number].push_back(node);
-  });
-  for (std::size_t b = 0; b < field.blocks().size(); ++b)
-    if (field.blocks()[b].boundaries) field.leave_out(static_cast<int>(b), left_out[static_cast<int>(b)]);
-}
-
 /// Work on a domain, which may be a plugin's: one that fails on a rank of its own would leave the others
 /// waiting.
 void attempt(const Communicator& communicator, const IntegrationDomain& domain,
@@ -343,7 +313,6 @@ void Problem::finish(double time, bool shape_derivatives) {
         block.prescribed[static_cast<std::size_t>(node) * block.size + condition.component] = 1;
     }
     for (Block& block : entry.field->blocks()) block.space->halo().update(block.prescribed, block.size);
-    leave_out_multipliers(*entry.field);
     place_levels(fields_, joins_, entry);
     for (const LevelCondition& level : entry.levels)
       if (entry.cut) entry.cut->keep_at(level.open_boundaries);
@@ -361,6 +330,7 @@ void Problem::finish(double time, bool shape_derivatives) {
   if (shape_derivatives) add_swept_volumes();
   update_ties(time_point(time, 0, 1));
   carry_rates_of_bodies(fields_, ties(time_point(time, 0, 1)), communicator_);
+  leave_out_multipliers(fields, assembler_->ties());
   assembler_->rebuild();
 }
 
