@@ -120,8 +120,10 @@ class MortarContact final : public Coupling {
     s.number(
          "complementarity",
          "Weight of gaps beside pressures in deciding which nodes touch, over the body's stiffness by the "
-         "size of its cells. Answers do not depend on it")
-        .otherwise("1")
+         "size of its cells. Answers do not depend on it; with large ones, what an iteration leaves of gaps "
+         "counts for "
+         "more than pressures")
+        .otherwise("1e-4")
         .above(0);
     return s;
   }
