@@ -55,12 +55,13 @@ class Plate final : public Physics {
   std::vector<std::string> held_;
 };
 
-std::shared_ptr<const Mesh> plate(CellType cell, int order, double from, double to, int n, int m) {
+std::shared_ptr<const Mesh> plate(CellType cell, int order, double from, double to, int n, int m,
+                                  double height = 1) {
   Grid grid;
   grid.cell = cell;
   grid.order = order;
   grid.lines[0] = graded_lines(from, to, n);
-  grid.lines[1] = graded_lines(0, 1, m);
+  grid.lines[1] = graded_lines(0, height, m);
   return std::make_shared<Mesh>("plate", std::make_shared<MeshData>(make_grid(grid)), Communicator());
 }
 
@@ -76,7 +77,8 @@ struct TwoPlates {
 };
 
 /// Plates left and right of x = 1 with 5 and 7 cells along it, tied by a multiplier on the left one.
-TwoPlates tied(CellType cell, int order, const std::vector<std::string>& held_beside) {
+/// @param height of the right one
+TwoPlates tied(CellType cell, int order, const std::vector<std::string>& held_beside, double height = 1) {
   TwoPlates result;
   Unknown q{"seam.q", 1, order, 0, "", UnknownRole::constraint};
   q.boundaries = {"x_max"};
@@ -87,7 +89,7 @@ TwoPlates tied(CellType cell, int order, const std::vector<std::string>& held_be
   PlainSetup setup;
   setup.sides = {&result.problem->add_field("left", plate(cell, order, 0, 1, 3, 5),
                                             std::make_unique<Plate>(order, left), {}, {q}),
-                 &result.problem->add_field("right", plate(cell, order, 1, 2, 4, 7),
+                 &result.problem->add_field("right", plate(cell, order, 1, 2, 4, 7, height),
                                             std::make_unique<Plate>(order, right))};
   setup.degree = 2 * order;
   Parameters p;
@@ -159,5 +161,18 @@ TEST_CASE("functions of a surface's nodes make up a constant, some of them left 
       CHECK(sum == Approx(1).epsilon(1e-12));
       CHECK(slope == Approx(0).margin(1e-12));
     }
+  }
+}
+
+TEST_CASE("unknowns of a surface that nothing is opposite to are zero", "[ranks]") {
+  const int order = GENERATE(1, 2);
+  const TwoPlates plates = tied(CellType::quadrilateral, order, {}, 0.5);
+  REQUIRE(test::solve_static(*plates.problem).converged);
+  const Block& surface = plates.problem->field("left").field->blocks()[1];
+  for (int node = 0; node < surface.space->owned_nodes(); ++node) {
+    if (surface.active[node] == 0) continue;
+    // Cells are 0.2 high: up to 0.6 a function has a part of its support in front of the right plate.
+    INFO("y = " << surface.space->position(node)[1]);
+    CHECK((surface.now.value[node] == 0) == (surface.space->position(node)[1] > 0.61));
   }
 }
