@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "seam/field/field.hpp"
-#include "seam/field/row_law.hpp"
 #include "seam/field/unknown.hpp"
 #include "seam/interface/interface.hpp"
 

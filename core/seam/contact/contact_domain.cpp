@@ -68,7 +68,8 @@ std::vector<Field*> ContactDomain::fields() const {
 }
 
 bool ContactDomain::follow(double time) {
-  if (is_at_rest() && !elements_.empty()) return false;
+  if (is_at_rest() && is_found_) return false;
+  is_found_ = true;
   std::vector<Pairing> before;
   for (const PairPoints& points : elements_) before.push_back({points.facet, points.opposite_group});
   elements_.clear();

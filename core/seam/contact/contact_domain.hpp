@@ -66,6 +66,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   MovingSurface obstacle_;
   ContactWindow window_;
   std::unique_ptr<Passage> passage_;  ///< null where surfaces are at rest
+  bool is_found_ = false;             ///< of surfaces at rest: what is opposite
   const Quadrature* rule_;
   std::vector<int> facets_;           ///< of this rank's cells
   std::map<int, double> trace_size_;  ///< of these: volume of the cell over the area of its face, m
