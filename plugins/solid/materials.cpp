@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "materials.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "seam/physics/potential.hpp"
@@ -53,6 +55,21 @@ struct SaintVenantKirchhoff {
   }
 };
 
+/// Thesis (5.22): a neo-Hookean solid with c~ (I1 - 3)^alpha added. I1 - 3 is negative in compression without
+/// lateral strain: the exponent is a whole even number.
+struct StiffeningNeoHookean {
+  NeoHookean plain;
+  double stiffening;  ///< c~
+  int exponent;       ///< alpha
+  template <class T>
+  T energy(const Invariants<T>& i) const {
+    const T stretched = i[0] - 3.0;
+    T power = stretched;
+    for (int k = 1; k < exponent; ++k) power = power * stretched;
+    return plain.energy(i) + stiffening * power;
+  }
+};
+
 Schema elastic_schema(const std::string& summary) {
   Schema s(summary);
   s.number("young", "Young's modulus of small strains").unit("Pa").above(0);
@@ -78,6 +95,22 @@ void declare_materials(Registry& registry) {
       registry, "saint_venant_kirchhoff",
       "Linear law between Green-Lagrange strain and second Piola-Kirchhoff stress; not for "
       "strong compression.");
+  Schema stiffening =
+      elastic_schema("Neo-Hookean solid that stiffens under strain, thesis (5.22), as rough surfaces do.");
+  stiffening.number("stiffening", "c~, of the energy c~ (I1 - 3)^alpha that is added").unit("Pa").at_least(0);
+  stiffening.integer("exponent", "alpha, even: the energy has a least value").at_least(2).at_most(20);
+  registry.add<Potential>(
+      "hyperelastic", "stiffening_neo_hookean", stiffening, [](const Parameters& p, const Registry&) {
+        const int exponent = static_cast<int>(p.integer("exponent"));
+        if (exponent % 2 != 0)
+          throw Error(
+              p.where("exponent"),
+              fmt::format("found {}, expected an even number: with an odd one a body gains energy without "
+                          "bounds as it is compressed",
+                          exponent));
+        return std::make_unique<LawPotential<3, StiffeningNeoHookean>>(StiffeningNeoHookean{
+            NeoHookean(p.number("young"), p.number("poisson")), p.number("stiffening"), exponent});
+      });
 }
 
 }  // namespace seam::solid

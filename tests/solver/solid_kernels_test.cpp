@@ -21,6 +21,8 @@ std::vector<PotentialPointer> materials() {
   Parameters p;
   p.set("young", {10.0, {}, {}, true});
   p.set("poisson", {0.3, {}, {}, true});
+  p.set("stiffening", {4.0, {}, {}, true});
+  p.set("exponent", {4L, {}, {}, true});
   std::vector<PotentialPointer> all;
   for (const std::string& name : registry.names("hyperelastic")) {
     p.set_type(name);
@@ -96,6 +98,25 @@ TEST_CASE("Cauchy stresses are derivatives of the energy, out of the plane too")
     check_cauchy_stress<2>(*material);
     check_cauchy_stress<3>(*material);
   }
+}
+
+TEST_CASE("a stiffening solid in compression without lateral strain has the stress of a formula") {
+  Registry registry;
+  declare_materials(registry);
+  Parameters p;
+  p.set_type("stiffening_neo_hookean");
+  p.set("young", {10.0, {}, {}, true});
+  p.set("poisson", {0.0, {}, {}, true});
+  p.set("stiffening", {4.0, {}, {}, true});
+  p.set("exponent", {3L, {}, {}, true});
+  CHECK_THROWS_WITH(registry.create<Potential>("hyperelastic", p), Catch::Matchers::Contains("even"));
+  p.set("exponent", {8L, {}, {}, true});
+  const PotentialPointer material = registry.create<Potential>("hyperelastic", p);
+  const double stretch = 0.7;
+  const auto sigma = cauchy_stress<2>(*material, Mat<2, 2, double>{{0, 0, 0, stretch - 1}});
+  const double expected =
+      5 * (stretch - 1 / stretch) + 4.0 * 8 * std::pow(stretch * stretch - 1, 7) * 2 * stretch;
+  CHECK(sigma[1] == Approx(expected).epsilon(1e-13));
 }
 
 TEST_CASE("von Mises' stress is that of a bar under any rotation, and of pure shear") {
