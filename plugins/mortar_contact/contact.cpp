@@ -10,7 +10,7 @@
 #include "multiplier.hpp"
 #include "seam/field/field.hpp"
 #include "seam/mesh/mesh.hpp"
-#include "seam/physics/law.hpp"
+#include "seam/physics/stress_law.hpp"
 #include "seam/term/kernel_term.hpp"
 
 namespace seam::mortar {
@@ -22,19 +22,23 @@ using Master = Vector<2>;
 
 /// The pressure p on the slave's surface as it is deformed, with its outward normal n:
 ///
-///   <du - du', p n> - <dp, g>
+///   <du - du', (p + q) n> - <dp, g>
 ///
-/// du' at the point opposite, g the gap. What the second term makes up about a node, minus its weighted gap,
-/// becomes an equation by the contact law.
-template <int sides>
+/// du' at the point opposite, g the gap. q is 0, or the pressure in the pores of a porous body where that is
+/// also the pressure of what fills gaps: p is then what contact adds to it, the multiplier of thesis (5.13)
+/// less f of (5.10). What the second term makes up about a node, minus its weighted gap, becomes an equation
+/// by the contact law.
+template <int sides, bool filled>
 struct Pressed {
-  using Reads = Slots<Value<Pressure>>;
+  using InPores = Scalar<sides + 1>;
+  using Reads = std::conditional_t<filled, Slots<Value<Pressure>, Value<InPores>>, Slots<Value<Pressure>>>;
   using Tests = std::conditional_t<sides == 2, Slots<Value<Slave>, Value<Pressure>, Value<Master>>,
                                    Slots<Value<Slave>, Value<Pressure>>>;
   static constexpr int movers = sides;
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
-    const T pressure = s.value(Pressure{});
+    T pressure = s.value(Pressure{});
+    if constexpr (filled) pressure += s.value(InPores{});
     r.value(Slave{}) += pressure * x.normal;
     if constexpr (sides == 2) r.value(Master{}) -= pressure * x.normal;
     r.value(Pressure{}) -= T(x.gap);
@@ -50,10 +54,11 @@ enum class Number {
 };
 
 /// A number at a point of contact.
-template <int sides>
+template <int sides, bool filled>
 struct State {
-  using Reads = std::conditional_t<sides == 2, Slots<Value<Slave>, Value<Pressure>, Value<Master>>,
-                                   Slots<Value<Slave>, Value<Pressure>>>;
+  using InPores = Scalar<sides + 1>;
+  using Reads = std::conditional_t<filled, Slots<Value<Pressure>, Value<InPores>>,
+                                   typename Pressed<sides, false>::Tests>;
   static constexpr int values(int) { return 1; }
   Number number;
   int component;
@@ -62,6 +67,8 @@ struct State {
   template <int dim>
   void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
     const double pressure = s.value(Pressure{});
+    double pores = 0;
+    if constexpr (filled) pores = s.value(InPores{});
     switch (number) {
       case Number::gap:
         *value = x.gap;
@@ -76,20 +83,16 @@ struct State {
         *value = pressure;
         break;
       case Number::force:
-        *value = -pressure * x.normal[component];
+        *value = -(pressure + pores) * x.normal[component];
     }
   }
 };
 
-/// The stiffness of a body at rest in compression without lateral strain, Pa; 0 where it has no stress.
+/// The stiffness of a body, or of the skeleton of one, at rest, Pa; 0 where it has no stress.
 double modulus(const CouplingSides& sides, int side, int dimension) {
-  const auto law = sides.law(side, "stress");
-  if (!law) return 0;
-  const std::size_t n = static_cast<std::size_t>(dimension) * dimension;
-  const std::vector<double> rest(n, 0.0);
-  std::vector<double> value(n), first(n * n);
-  law->evaluate(dimension, rest.data(), value.data(), first.data(), nullptr);
-  return first[0];
+  for (const char* name : {"stress", "skeleton"})
+    if (const auto law = sides.law(side, name)) return stiffness_at_rest(*law, dimension);
+  return 0;
 }
 
 /// Of the largest cell, m. Collective.
@@ -97,6 +100,15 @@ double cell_size(const Mesh& mesh) {
   double largest = 0;
   for (int c = 0; c < mesh.owned_cells(); ++c) largest = std::max(largest, mesh.diameter(c));
   return mesh.communicator().max(largest);
+}
+
+/// What `make` makes of the number of bodies that deform and of whether gaps are filled.
+template <class Make>
+auto choose(std::size_t bodies, bool filled, const Make& make) {
+  using One = std::integral_constant<int, 1>;
+  using Two = std::integral_constant<int, 2>;
+  if (bodies == 1) return filled ? make(One{}, std::true_type{}) : make(One{}, std::false_type{});
+  return filled ? make(Two{}, std::true_type{}) : make(Two{}, std::false_type{});
 }
 
 class MortarContact final : public Coupling {
@@ -117,6 +129,12 @@ class MortarContact final : public Coupling {
         .of_types({"contact", "obstacle"});
     s.typed("law", "What pressure and gap have to do with each other at a node", "contact_law")
         .otherwise("unilateral");
+    s.boolean("filled",
+              "Gaps of porous bodies are filled with fluid at the pressure in the pores, of the slave if it "
+              "has some, "
+              "and bodies part where their pressure on each other falls to it, thesis (5.10). Otherwise gaps "
+              "are empty")
+        .otherwise("true");
     s.number(
          "complementarity",
          "Weight of gaps beside pressures in deciding which nodes touch, over the body's stiffness by the "
@@ -137,7 +155,7 @@ class MortarContact final : public Coupling {
   }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
-    require_bodies(sides, parameters_.where("on"));
+    require_displacements(sides);
     if (sides.fields.size() == 2 && sides.fields[0] == sides.fields[1])
       throw Error(
           parameters_.where("on"),
@@ -146,15 +164,17 @@ class MortarContact final : public Coupling {
                       sides.fields[0]->name()));
     // Laws of the bodies are known only now, long after that of the unknown has been asked for.
     *stiffness_ = parameters_.number("complementarity") * stiffness_of(sides);
-    if (sides.fields.size() == 1) return {{make_term(Pressed<1>{}), operands(sides)}};
-    return {{make_term(Pressed<2>{}), operands(sides)}};
+    return {{choose(sides.fields.size(), filling(sides) >= 0,
+                    [](auto bodies, auto filled) { return make_term(Pressed<bodies, filled>{}); }),
+             operands(sides)}};
   }
 
   [[nodiscard]] std::vector<Measure> measures(const CouplingSides& sides) const override {
     const double rounding = 1e-12 * stiffness_of(sides) * cell_size(sides.fields[0]->mesh());
     const auto measure = [&](const std::string& name, Number number, MeasureOf of, int component = 0) {
-      auto quantity = sides.fields.size() == 1 ? make_quantity(State<1>{number, component, rounding})
-                                               : make_quantity(State<2>{number, component, rounding});
+      auto quantity = choose(sides.fields.size(), filling(sides) >= 0, [&](auto bodies, auto filled) {
+        return make_quantity(State<bodies, filled>{number, component, rounding});
+      });
       return Measure{name, {{std::move(quantity), operands(sides)}}, of};
     };
     std::vector<Measure> result{measure("gap", Number::gap, MeasureOf::least),
@@ -178,9 +198,16 @@ class MortarContact final : public Coupling {
                 "both bodies are rigid, or give no stress, so that nothing says where the pressure between "
                 "them acts; one of them has to deform");
   }
+  /// The side whose pores fill gaps; -1 for none.
+  [[nodiscard]] int filling(const CouplingSides& sides) const {
+    for (int side = 0; side < static_cast<int>(sides.fields.size()); ++side)
+      if (parameters_.boolean("filled") && sides.law(side, "pores")) return side;
+    return -1;
+  }
   [[nodiscard]] std::vector<Operand> operands(const CouplingSides& sides) const {
     std::vector<Operand> result{{0, "displacement"}, {0, pressure_}};
     if (sides.fields.size() == 2) result.push_back({1, "displacement"});
+    if (const int side = filling(sides); side >= 0) result.push_back({side, "pressure"});
     return result;
   }
   Parameters parameters_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -24,19 +22,9 @@ inline std::vector<Unknown> multiplier(const std::string& name, int components, 
   return {{name, components, std::min(displacement->order, highest_order), 0, "Pa", UnknownRole::constraint}};
 }
 
-/// @throws Error where a side has no displacement, or pores of which nothing would be said, naming the field
-inline void require_bodies(const CouplingSides& sides, const Location& where) {
-  for (int side = 0; side < static_cast<int>(sides.fields.size()); ++side) {
-    const Field& field = *sides.fields[side];
-    static_cast<void>(field.place("displacement"));
-    if (sides.law(side, "pores"))
-      throw Error(
-          where,
-          fmt::format("field '{}' has pores, and nothing would say what seeps through its surface there: "
-                      "mortar methods take bodies without pores so far. Across meshes that match the "
-                      "coupling `bonded` joins a porous body to a solid",
-                      field.name()));
-  }
+/// @throws Error where a side has no displacement, naming the field
+inline void require_displacements(const CouplingSides& sides) {
+  for (const Field* field : sides.fields) static_cast<void>(field->place("displacement"));
 }
 
 }  // namespace seam::mortar

@@ -74,15 +74,6 @@ struct JointTraction {
   }
 };
 
-/// M, Pa.
-double stiffness(const Law& law, int dimension) {
-  const std::size_t n = static_cast<std::size_t>(dimension) * dimension;
-  const std::vector<double> rest(n, 0.0);
-  std::vector<double> value(n), first(n * n);
-  law.evaluate(dimension, rest.data(), value.data(), first.data(), nullptr);
-  return first[0];
-}
-
 /// Bodies that are grown together.
 class Bond final : public Coupling {
  public:
@@ -124,7 +115,7 @@ class Bond final : public Coupling {
  private:
   [[nodiscard]] Bonded bond(const CouplingSides& sides) const {
     const std::shared_ptr<const Law> law = law_of(sides, 0);
-    const double modulus = stiffness(*law, parameters_.dimension());
+    const double modulus = stiffness_at_rest(*law, parameters_.dimension());
     return {law, adjoint_of(parameters_), parameters_.number("penalty") * modulus};
   }
   static std::vector<Operand> operands(const CouplingSides& sides) {

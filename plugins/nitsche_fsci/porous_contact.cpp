@@ -108,7 +108,7 @@ class PorousContact final : public Coupling {
   /// As `fpi`.
   [[nodiscard]] int extra_degree(int dimension) const override { return dimension == 2 ? 4 : 1; }
 
-  [[nodiscard]] std::vector<Brought> brings() const override { return {{1, "seepage"}}; }
+  [[nodiscard]] std::vector<Brought> brings(const CouplingSides&) const override { return {{1, "seepage"}}; }
 
   [[nodiscard]] std::vector<SideTerm> terms(const CouplingSides& sides) const override {
     std::vector<SideTerm> result{{make_term(film<Facing::nothing>(sides), 1), free_operands, {}, "free"},

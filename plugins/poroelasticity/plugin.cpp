@@ -17,6 +17,8 @@ SEAM_PLUGIN(registry) {
        {Published::As::quantity, "fluid_body_force", "m/s^2", "where it is interpolated from the nodes"},
        {Published::As::quantity, "porosity", "", "share of the pores in the current volume"},
        {Published::As::quantity, "seepage", "m/s", "porosity times the velocity relative to the skeleton"},
+       {Published::As::quantity, "outflow", "m/s",
+        "on boundaries, per area at rest: fluid that leaves the body, m^d/s in probes"},
        {Published::As::series, "volume", "m^d", "of the deformed body"},
        {Published::As::series, "fluid_volume", "m^d", "of the fluid in its pores"}});
 }

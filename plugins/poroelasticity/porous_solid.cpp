@@ -196,6 +196,7 @@ void PorousSolid::add_outputs(FieldSetup& setup, const Region& region) {
   const Porosity& porosity = region.flow.porosity;
   setup.add_output("porosity", make_quantity(PorosityValue{porosity}), {"displacement", "pressure"});
   setup.add_output("seepage", make_quantity(SeepageVelocity{porosity}), all_unknowns);
+  setup.add_boundary_quantity("outflow", make_quantity(Outflow{porosity}, 4), all_unknowns);
   setup.add_integral("fluid_volume", make_quantity(FluidVolume{porosity}), {"displacement", "pressure"});
   setup.add_integral("volume", make_quantity(CurrentVolume{}), {"displacement"});
 }

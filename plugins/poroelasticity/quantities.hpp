@@ -33,6 +33,20 @@ struct SeepageVelocity {
   }
 };
 
+/// phi C N.w, m/s of area at rest, as in the balance of mass: the fluid that leaves the body.
+struct Outflow {
+  using Reads = SeepageVelocity::Reads;
+  static constexpr int values(int) { return 1; }
+  Porosity porosity;
+  template <int dim>
+  void operator()(const Point<dim>& x, const Trial<dim, double, Reads>& s, double* value) const {
+    const Deformation<dim, double> d(s.gradient(u{}));
+    const Vec<dim, double> w = s.value(v{}) - s.rate(u{});
+    *value =
+        porosity.fluid_volume(d.invariant[2], s.value(p{})) / d.invariant[2] * dot(d.cofactor * x.normal, w);
+  }
+};
+
 /// J phi, m^3 of fluid per reference volume.
 struct FluidVolume {
   using pressure = Scalar<1>;

@@ -46,6 +46,8 @@ class Terms final : public FieldSetup {
     }
     return m;
   }
+  void add_boundary_quantity(const std::string&, std::shared_ptr<const Term>,
+                             std::vector<std::string>) override {}
   void add_integral(const std::string&, std::shared_ptr<const Term> term,
                     std::vector<std::string> operands) override {
     energy = {std::move(term), std::move(operands)};

@@ -117,7 +117,10 @@ class Coupling {
     int side;
     std::string term;
   };
-  [[nodiscard]] virtual std::vector<Brought> brings() const { return {}; }
+  [[nodiscard]] virtual std::vector<Brought> brings(const CouplingSides& sides) const {
+    (void)sides;
+    return {};
+  }
   /// What becomes of a quantity on the interface: one number, recorded at every step as the time series
   /// `interface.name`.
   struct Measure {

@@ -87,6 +87,10 @@ class FieldSetup {
   /// A quantity integrated over the field and written as a time series: an energy, a mass, a flow.
   virtual void add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
                             std::vector<std::string> operands) = 0;
+  /// A quantity that needs a boundary's normal, as what flows out: for probes, integrated over boundaries at
+  /// rest.
+  virtual void add_boundary_quantity(const std::string& name, std::shared_ptr<const Term> quantity,
+                                     std::vector<std::string> operands) = 0;
   /// Geometry of the body, for a physics with Support::point.
   [[nodiscard]] virtual Moments moments() const = 0;
 };

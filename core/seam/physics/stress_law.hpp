@@ -2,6 +2,7 @@
 #pragma once
 
 #include <utility>
+#include <vector>
 
 #include "seam/physics/law.hpp"
 
@@ -13,6 +14,15 @@ Mat<dim, dim, T> stress(const Law& law, const Mat<dim, dim, T>& displacement_gra
   Mat<dim, dim, T> result;
   result.c = evaluate<dim * dim, dim * dim, T>(law, dim, displacement_gradient.c);
   return result;
+}
+
+/// The stiffness at rest in compression without lateral strain by such a law, Pa.
+inline double stiffness_at_rest(const Law& law, int dimension) {
+  const std::size_t n = static_cast<std::size_t>(dimension) * dimension;
+  const std::vector<double> rest(n, 0.0);
+  std::vector<double> value(n), first(n * n);
+  law.evaluate(dimension, rest.data(), value.data(), first.data(), nullptr);
+  return first[0];
 }
 
 /// The formula of such a law, of a material that has

@@ -112,8 +112,15 @@ int displacement_beside(const FieldEntry& entry, const Field::ComponentRange& pl
 
 }  // namespace
 
-NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
+NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name, bool on_boundary) {
   const int dim = entry.field->mesh().dimension();
+  for (const FieldQuantity& quantity : entry.boundary_quantities) {
+    if (quantity.name != name) continue;
+    if (!on_boundary)
+      throw Error(fmt::format("'{}' of field '{}' is known on its boundaries only: say `on`, and of which",
+                              name, entry.name));
+    return {quantity.terms, quantity.terms.front().term->signature(dim).values};
+  }
   std::vector<std::string> known;
   for (const Unknown& unknown : entry.field->unknowns()) {
     if (unknown.name == name)
@@ -125,6 +132,8 @@ NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name) {
     if (output.name == name) return {output.terms, output.terms.front().term->signature(dim).values};
     known.push_back(output.name);
   }
+  for (const FieldQuantity& quantity : entry.boundary_quantities)
+    if (on_boundary) known.push_back(quantity.name);
   const std::string nearest = nearest_name(name, known);
   throw Error(fmt::format("field '{}' has no quantity '{}'{}; it has: {}", entry.name, name,
                           nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest),
@@ -173,8 +182,10 @@ std::vector<double> cell_integral(const CellDomain& cells, const NamedQuantity& 
 std::vector<double> boundary_integral(const FieldEntry& entry, const std::vector<std::string>& boundaries,
                                       const NamedQuantity& quantity, const TimePoint& at) {
   std::vector<double> sum(quantity.components, 0.0);
+  int extra = 0;
+  for (const BoundTerm& of : quantity.terms) extra = std::max(extra, of.term->extra_degree());
   for (const std::string& name : boundaries) {
-    const BoundaryDomain faces(*entry.field, name, 2 * entry.field->order());
+    const BoundaryDomain faces(*entry.field, name, 2 * entry.field->order() + extra);
     const auto part = integrate(faces, quantity, at, entry.field->mesh().communicator());
     for (std::size_t c = 0; c < sum.size(); ++c) sum[c] += part[c];
   }

@@ -18,8 +18,9 @@ struct NamedQuantity {
   std::vector<BoundTerm> terms;  ///< see FieldQuantity
   int components = 1;
 };
+/// @param on_boundary whether it may be one that only boundaries have
 /// @throws Error listing the quantities the field has
-NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name);
+NamedQuantity find_quantity(const FieldEntry& entry, const std::string& name, bool on_boundary = false);
 
 /// Values of a quantity at the nodes of a space of the field, averaged over the cells that meet there, [local
 /// node][component]. The averages are complete on the nodes of owned cells.

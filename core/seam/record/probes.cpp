@@ -100,7 +100,8 @@ void Probe::choose_quantity(const Parameters& p, const FieldEntry& entry, const 
       quantity_.components = std::ranges::find(forces, quantity_name_, &HoldsField::Force::name)->components;
     }
     exerted_ = reaction_ ? unknown_of_reaction(entry, boundaries_) : entry.field->unknowns().at(0).name;
-    if (holding_ == nullptr) quantity_ = find_quantity(entry, exerted ? exerted_ : quantity_name_);
+    if (holding_ == nullptr)
+      quantity_ = find_quantity(entry, exerted ? exerted_ : quantity_name_, !boundaries_.empty());
     if (moment_about_ && quantity_.components != entry.mesh->dimension())
       throw Error(fmt::format("what '{}' exerts has no moment: '{}' is no vector", interface_, exerted_));
     if (quantity_.components == 1 && !component_.empty() && component_ != "magnitude" && !force_)

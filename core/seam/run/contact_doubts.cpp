@@ -29,13 +29,20 @@ class ContactDoubts {
       for (const auto& [name, interface] : at_.built.interfaces) {
         if (!coupling.has("on") || coupling.text("on") != name) continue;
         const std::vector<std::string> fields = interface->fields();
+        if (coupling.type() == "mortar_contact")
+          for (int side = 0; side < static_cast<int>(fields.size()); ++side)
+            look_at_pores(coupling, fields[side], interface->boundaries(side),
+                          "since contact by itself seals nothing");
         if (fields.size() < 2 || !is_cut(fields[0])) continue;
         all.push_back(
             {&coupling, name, fields[0], fields[1], fields.size() > 2 ? fields[2] : "", interface.get()});
       }
     for (const InField& one : all) {
       look_at_partner(one, all);
-      look_at_pores(one);
+      const std::string type = one.coupling->type();
+      if (type == "fsi" || type == "contact_in_fluid")
+        look_at_pores(*one.coupling, one.body, one.of->boundaries(1),
+                      fmt::format("or take `{}`", type == "fsi" ? "fpi" : "porous_contact_in_fluid"));
     }
     return std::move(found_);
   }
@@ -81,11 +88,11 @@ class ContactDoubts {
   }
 
   /// Pores that no condition speaks of are open to a pressure of zero.
-  void look_at_pores(const InField& one) {
-    const std::string type = one.coupling->type();
-    if ((type != "fsi" && type != "contact_in_fluid") || !has_pores(one.body)) return;
+  void look_at_pores(const Parameters& coupling, const std::string& body,
+                     const std::vector<std::string>& named, const std::string& advice) {
+    if (!has_pores(body)) return;
     const auto& scene_fields = at_.scene.root.map("fields");
-    const auto field = std::ranges::find(scene_fields, one.body, &std::pair<std::string, Parameters>::first);
+    const auto field = std::ranges::find(scene_fields, body, &std::pair<std::string, Parameters>::first);
     if (field == scene_fields.end()) return;
     std::set<std::string> said;
     for (const Parameters& condition :
@@ -93,16 +100,15 @@ class ContactDoubts {
       for (const char* key : {"seepage", "velocity", "pore_pressure"})
         if (condition.has(key))
           for (const std::string& on : condition.names("on")) said.insert(on);
-    const std::vector<std::string> named = one.of->boundaries(1);
     const bool all_said = !named.empty() && std::ranges::all_of(named, [&](const std::string& boundary) {
       return said.contains(boundary);
     });
     if (all_said || (named.empty() && !said.empty())) return;
-    warn(one.coupling->where("on"),
+    warn(coupling.where("on"),
          fmt::format(
              "`{}` knows of no pores, and those of '{}' are open to a pressure of 0 there: say `seepage: 0` "
-             "on that boundary where it is tight, or take `{}`",
-             type, one.body, type == "fsi" ? "fpi" : "porous_contact_in_fluid"));
+             "on that boundary where it is tight, {}",
+             coupling.type(), body, advice));
   }
 
   const SceneAtStart& at_;

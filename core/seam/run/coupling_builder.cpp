@@ -98,10 +98,10 @@ class CouplingBinder {
   CouplingBinder(const SceneCoupling& of, const BuiltInterface& on) : of_(of), on_(on) {}
 
   void bind_to(Problem& problem) {
-    for (const Coupling::Brought& brought : of_.coupling->brings())
+    CouplingSides sides{{on_.sides.begin(), on_.sides.end()}, std::vector<int>(on_.sides.size(), 0)};
+    for (const Coupling::Brought& brought : of_.coupling->brings(sides))
       problem.leave_out(on_.sides.at(brought.side)->name(), brought.term, on_.of->boundaries(brought.side),
                         of_.describe());
-    CouplingSides sides{{on_.sides.begin(), on_.sides.end()}, std::vector<int>(on_.sides.size(), 0)};
     do {
       for (const auto& term : of_.coupling->terms(sides))
         if (concerns(term, sides)) terms_[term.part].push_back(bound(term, sides));

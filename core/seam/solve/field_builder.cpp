@@ -284,6 +284,11 @@ void FieldBuilder::add_integral(const std::string& name, std::shared_ptr<const T
   add_quantity(entry_.integrals, name, std::move(quantity), operands);
 }
 
+void FieldBuilder::add_boundary_quantity(const std::string& name, std::shared_ptr<const Term> quantity,
+                                         std::vector<std::string> operands) {
+  add_quantity(entry_.boundary_quantities, name, std::move(quantity), operands);
+}
+
 Moments FieldBuilder::moments() const {
   const Mesh& mesh = *entry_.shape;
   const int dim = mesh.dimension();

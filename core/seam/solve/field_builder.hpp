@@ -44,6 +44,8 @@ class FieldBuilder final : public FieldSetup {
                   std::vector<std::string> operands) override;
   void add_integral(const std::string& name, std::shared_ptr<const Term> quantity,
                     std::vector<std::string> operands) override;
+  void add_boundary_quantity(const std::string& name, std::shared_ptr<const Term> quantity,
+                             std::vector<std::string> operands) override;
   [[nodiscard]] Moments moments() const override;
 
  private:

@@ -18,8 +18,10 @@ namespace {
 constexpr double rounding_error = 1e-13;  ///< relative residual that cannot be lowered
 /// In rounding errors of the residual: forces below that are none. A strain of 1e-10 has larger ones.
 constexpr double nothing_acts = 1e6;
-/// Relative residual that may be one of rounding where others act.
-constexpr double hardly_more = 1e-10;
+/// Relative residual that may be one of rounding where others act, and where it has not fallen for several
+/// iterations.
+constexpr double hardly_more = 1e-10, stuck_at_most = 1e-6;
+constexpr int several = 3;
 /// Iterations in which unknowns may come and go; then they may only come, lest a step cycle between two sets
 /// of them (thesis 6.3.2).
 constexpr int free_iterations = 3;
@@ -133,7 +135,8 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
       // Where something acts, its forces are the scale; but iterations get no further than rounding.
       const double residual = std::sqrt(sums[0]), rounded = std::sqrt(sums[4]), forces = std::sqrt(sums[1]);
       const bool may_be_rounding =
-          forces < nothing_acts * rounded || (!starts_ && residual < hardly_more * forces);
+          forces < nothing_acts * rounded ||
+          (!starts_ && residual < (stuck_ >= several ? stuck_at_most : hardly_more) * forces);
       const double noise = may_be_rounding ? rounded : 0,
                    scale = std::max(forces, noise / options_.tolerance);
       // Without any contribution the unknown's equations hold.
@@ -152,9 +155,10 @@ Newton::Size Newton::measure(const std::vector<double>& increment, double factor
 
 /// Measures the present state. What nothing acts on does not move, and has a residual of rounding errors that
 /// no force beside it makes look small: these errors are estimated.
-Newton::Size Newton::measure_with_rounding(const NewtonIteration& entry) const {
+Newton::Size Newton::measure_with_rounding(const NewtonIteration& entry) {
   Size size = measure(increment_, entry.damping);
   const bool stays = starts_ || size.residual > 0.5 * size_.residual;
+  stuck_ = stays && !starts_ ? stuck_ + 1 : 0;
   if (!std::isfinite(size.residual) || size.residual <= options_.tolerance || !stays) return size;
   return measure(increment_, entry.damping, problem_.assembler().rounding());
 }
@@ -216,6 +220,7 @@ void Newton::begin(const TimePoint& step) {
   size_ = {};
   iteration_ = 0;
   starts_ = true;
+  stuck_ = 0;
   frozen_ = false;
   freezes_ = 0;
   freed_ = 0;

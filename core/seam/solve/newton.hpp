@@ -88,7 +88,7 @@ class Newton {
   /// @param rounding [owned row], see Assembler::rounding(); empty: not looked at
   [[nodiscard]] Size measure(const std::vector<double>& increment, double factor,
                              const std::vector<double>& rounding = {}) const;
-  Size measure_with_rounding(const NewtonIteration& entry) const;
+  Size measure_with_rounding(const NewtonIteration& entry);
   bool fail(std::string reason);
   [[nodiscard]] std::string refusal() const;
   [[nodiscard]] bool converged(const NewtonIteration& entry, const Size& last) const;
@@ -114,6 +114,7 @@ class Newton {
   Size size_;
   int iteration_ = 0;
   bool starts_ = true;  ///< at states without an increment that led there
+  int stuck_ = 0;       ///< iterations in a row in which the residual has not fallen
   bool frozen_ = false;
   int freezes_ = 0;
   std::size_t freed_ = 0;          ///< the iteration from which on the cut has followed

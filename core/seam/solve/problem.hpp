@@ -86,7 +86,7 @@ struct FieldEntry {
   };
   std::map<std::string, SurfaceTerm> surfaces;  ///< by name
   std::unique_ptr<FieldCut> cut;                ///< null when nothing cuts the field's mesh
-  std::vector<FieldQuantity> outputs, integrals;
+  std::vector<FieldQuantity> outputs, integrals, boundary_quantities;
 };
 
 /// A number that a coupling wants recorded.

@@ -457,7 +457,9 @@ std::shared_ptr<const Term> make_term(Kernel kernel, int extra_degree = 0) {
 template <class Kernel>
 class KernelQuantity final : public Term {
  public:
-  explicit KernelQuantity(Kernel kernel) : kernel_(std::move(kernel)), signatures_{make(2), make(3)} {}
+  KernelQuantity(Kernel kernel, int extra_degree)
+      : kernel_(std::move(kernel)), extra_degree_(extra_degree), signatures_{make(2), make(3)} {}
+  [[nodiscard]] int extra_degree() const override { return extra_degree_; }
   [[nodiscard]] const Signature& signature(int dimension) const override {
     return signatures_[dimension - 2];
   }
@@ -483,12 +485,14 @@ class KernelQuantity final : public Term {
                                        values + q * Kernel::values(dim));
   }
   Kernel kernel_;
+  int extra_degree_;
   Signature signatures_[2];
 };
 
+/// @param extra_degree that it adds to squares of unknowns; counts where a boundary quantity is integrated
 template <class Kernel>
-std::shared_ptr<const Term> make_quantity(Kernel kernel) {
-  return std::make_shared<KernelQuantity<Kernel>>(std::move(kernel));
+std::shared_ptr<const Term> make_quantity(Kernel kernel, int extra_degree = 0) {
+  return std::make_shared<KernelQuantity<Kernel>>(std::move(kernel), extra_degree);
 }
 
 }  // namespace seam
