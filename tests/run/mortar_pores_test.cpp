@@ -225,3 +225,25 @@ coupling: [{type: mortar_contact, on: seam}]
   CHECK_THAT(one.done.output, !Catch::Contains(warning));
   CHECK_THAT(one.done.output, Catch::Contains("those of 'lower' are open"));
 }
+
+TEST_CASE("what leaves a porous body through a boundary that deforms is what it loses") {
+  std::string text = column(3, 4, upper_first + "coupling: [{type: mortar_tie, on: seam}]\n");
+  const std::string walls = "- {on: [x_min, x_max], displacement: [0, null], velocity: [0, null]}";
+  for (std::size_t at = text.find(walls); at != std::string::npos; at = text.find(walls))
+    text.replace(at, walls.size(), "- {on: x_min, displacement: [0, null], velocity: [0, null]}");
+  const std::string out = "    out: {field: upper, on: y_max, quantity: seepage, component: y}\n";
+  std::string probes =
+      "    upper_out: {field: upper, on: [x_max, y_max], quantity: outflow}\n"
+      "    lower_out: {field: lower, on: x_max, quantity: outflow}\n";
+  text.replace(text.find(out), out.size(), probes);
+  const Run run(text, "--set parameters.load=20");
+  CAPTURE(run.done.output);
+  REQUIRE(run.done.code == 0);
+  CHECK(run.series("lower_out").back() > 1e-3);
+  CHECK(most_lost(run, "lower.fluid_volume", {{1, "lower_out"}, {-1, "seam.seepage"}}) < 1e-13);
+  CHECK(most_lost(run, "upper.fluid_volume", {{1, "upper_out"}, {1, "seam.seepage"}}) < 1e-13);
+
+  text.replace(text.find("on: x_max, quantity: outflow"), 28, "at: [0.5, 0.2], quantity: outflow");
+  CHECK_THAT(Run(text).done.output,
+             Catch::Contains("'outflow' of field 'lower' is known on its boundaries only"));
+}
