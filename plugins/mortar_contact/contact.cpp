@@ -90,7 +90,7 @@ struct State {
 
 /// The stiffness of a body, or of the skeleton of one, at rest, Pa; 0 where it has no stress.
 double modulus(const CouplingSides& sides, int side, int dimension) {
-  for (const char* name : {"stress", "skeleton"})
+  for (const char* name : {"stress", "elastic", "skeleton"})
     if (const auto law = sides.law(side, name)) return stiffness_at_rest(*law, dimension);
   return 0;
 }
@@ -150,7 +150,10 @@ class MortarContact final : public Coupling {
                                               const std::vector<Unknown>& of_field) const override {
     // Of order 2 some functions are negative here and there: the mean gap about a node would say nothing.
     std::vector<Unknown> result = multiplier(pressure_, 1, 1, side, of_field);
-    for (Unknown& unknown : result) unknown.law = law_->rows(stiffness_);
+    for (Unknown& unknown : result) {
+      unknown.law = law_->rows(stiffness_);
+      unknown.multiplier_of = "displacement";
+    }
     return result;
   }
 

@@ -104,7 +104,8 @@ void Solid::add_body_terms(FieldSetup& setup, const Region& region) const {
     setup.add_cell_term(make_term(MixedInternalForce{region.material}), mixed_unknowns);
   else
     setup.add_cell_term(make_term(InternalForce{{region.material}}), displacement_only);
-  if (!mixed_) setup.publish("stress", std::make_shared<LawStress<Piola>>(Piola{region.material}));
+  // That of the mixed form is no function of the displacement alone.
+  setup.publish(mixed_ ? "elastic" : "stress", std::make_shared<LawStress<Piola>>(Piola{region.material}));
   if (region.density > 0) setup.add_cell_term(make_term(BodyInertia{region.density}), displacement_only);
 }
 

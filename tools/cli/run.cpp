@@ -59,7 +59,7 @@ void add_common(CommandLine& line, SceneRun& run) {
   line.add_option(
       "--time-limit", [&run](const std::string& text) { run.time_limit = parse_duration(text); },
       "begin no step after so much wall time (90m, 1h30m, seconds): writes a restart point, exit code 124");
-  line.add_flag("--quiet", run.quiet, "no progress line");
+  line.add_flag("--quiet", run.quiet, "no progress line, no warnings");
   line.add_flag("!--no-picture", run.pictures, "make no picture");
 }
 

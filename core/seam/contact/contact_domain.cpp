@@ -67,15 +67,46 @@ std::vector<Field*> ContactDomain::fields() const {
   return {&own_->body(), &other_->body()};
 }
 
+OppositePoints ContactDomain::look_from(double time) const {
+  if (is_at_rest()) return {*own_, other_.get(), own_->at_rest(), other_->at_rest(), window_};
+  return {*own_, other_.get(), own_->now(), opposite_at(time), window_};
+}
+
+ContactDomain::Sight ContactDomain::look(double time) const {
+  const OppositePoints opposite = look_from(time);
+  const int dim = own_->body().mesh().dimension();
+  double area = 0, seen = 0, farthest = 0, deepest = 0;
+  for (const int facet : facets_)
+    for (const OppositePoints::Stretch& stretch : opposite.stretches(facet))
+      for (int q = 0; q < rule_->count(); ++q) {
+        std::array<double, 2> on_facet{};
+        std::copy_n(&rule_->points[static_cast<std::size_t>(q) * (dim - 1)], dim - 1, on_facet.begin());
+        if (dim == 2) on_facet[0] = stretch.from.share + on_facet[0] * stretch.length();
+        const double weight = opposite.area(facet) * stretch.length() * rule_->weights[q];
+        const auto hit = opposite.find(facet, on_facet.data());
+        area += weight;
+        if (hit) {
+          seen += weight;
+          farthest = std::max(farthest, std::abs(hit->pair.gap));
+        } else {
+          // Surfaces need not be closed: what is not much further behind may be the other body's.
+          const auto behind = opposite.facing(facet, on_facet.data(), 4 * window_.depth, 0);
+          if (behind && behind->gap < 0) deepest = std::max(deepest, -behind->gap);
+        }
+      }
+  const Communicator& communicator = own_->body().mesh().communicator();
+  area = communicator.sum(area);
+  seen = communicator.sum(seen);
+  return {seen / area, communicator.max(farthest), communicator.max(deepest), window_.depth};
+}
+
 bool ContactDomain::follow(double time) {
   if (is_at_rest() && is_found_) return false;
   is_found_ = true;
   std::vector<Pairing> before;
   for (const PairPoints& points : elements_) before.push_back({points.facet, points.opposite_group});
   elements_.clear();
-  const OppositePoints opposite =
-      is_at_rest() ? OppositePoints(*own_, other_.get(), own_->at_rest(), other_->at_rest(), window_)
-                   : OppositePoints(*own_, other_.get(), own_->now(), opposite_at(time), window_);
+  const OppositePoints opposite = look_from(time);
   for (const int facet : facets_) add_facet(opposite, facet);
   if (is_at_rest()) return !elements_.empty();
   double least_gap = 0;

@@ -42,6 +42,16 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   int add_constant(int side, std::shared_ptr<const CellConstant> constant, int region) override;
   void forget_constants(bool new_step) override;
   [[nodiscard]] std::string description() const override;
+  /// What the surface sees.
+  struct Sight {
+    double part;      ///< of it has something opposite
+    double farthest;  ///< m, of that
+    double deepest;   ///< m, by which a part of it that sees nothing seems to be inside of the other body; 0:
+                      ///< none
+    double depth;     ///< m, that the window looks back
+  };
+  /// @param time s, of the surface opposite. Collective
+  [[nodiscard]] Sight look(double time) const;
 
  private:
   struct PairPoints {
@@ -57,6 +67,7 @@ class ContactDomain final : public IntegrationDomain, public BeginsSteps {
   [[nodiscard]] Surface opposite_at(double time) const { return other_ ? other_->now() : obstacle_(time); }
   [[nodiscard]] bool is_at_rest() const { return passage_ == nullptr; }
   void measure_cells();
+  [[nodiscard]] OppositePoints look_from(double time) const;
   void add_facet(const OppositePoints& opposite, int facet);
   template <int dim>
   void add_point(const OppositePoints::Hit& hit, double weight, const MovingPair<dim>& moving);

@@ -9,24 +9,6 @@
 namespace seam {
 namespace {
 
-/// Of a face between its vertices, m^(d-1).
-double area_of(const Mesh& mesh, const CellFace& face) {
-  const int dim = mesh.dimension();
-  const auto& vertices = topology(mesh.type()).faces[face.face];
-  const double* x = mesh.geometry(face.cell);
-  // Of the fan of triangles about vertex 0, in the plane of the way to vertex 1.
-  std::array<double, 3> area{};
-  const auto way = [&](std::size_t to, int d) {
-    return d < dim ? x[vertices[to] * dim + d] - x[vertices[0] * dim + d] : 0.0;
-  };
-  if (dim == 2) return std::hypot(way(1, 0), way(1, 1));
-  for (std::size_t k = 1; k + 1 < vertices.size(); ++k)
-    for (int d = 0; d < 3; ++d)
-      area[d] += 0.5 * (way(k, (d + 1) % 3) * way(k + 1, (d + 2) % 3) -
-                        way(k, (d + 2) % 3) * way(k + 1, (d + 1) % 3));
-  return std::hypot(area[0], area[1], area[2]);
-}
-
 /// Calls back with each face, and with the places of its nodes in its cell.
 template <class Use>
 void for_each_face(const Space& space, const std::vector<std::string>& boundaries, const Use& use) {
@@ -45,10 +27,28 @@ void for_each_face(const Space& space, const std::vector<std::string>& boundarie
 
 }  // namespace
 
+double face_area(const CellTopology& cell, int face, const double* x) {
+  const int dim = cell.dimension;
+  const auto& vertices = cell.faces[face];
+  // Of the fan of triangles about vertex 0, in the plane of the way to vertex 1.
+  std::array<double, 3> area{};
+  const auto way = [&](std::size_t to, int d) {
+    return d < dim ? x[vertices[to] * dim + d] - x[vertices[0] * dim + d] : 0.0;
+  };
+  if (dim == 2) return std::hypot(way(1, 0), way(1, 1));
+  for (std::size_t k = 1; k + 1 < vertices.size(); ++k)
+    for (int d = 0; d < 3; ++d)
+      area[d] += 0.5 * (way(k, (d + 1) % 3) * way(k + 1, (d + 2) % 3) -
+                        way(k, (d + 2) % 3) * way(k + 1, (d + 1) % 3));
+  return std::hypot(area[0], area[1], area[2]);
+}
+
 std::vector<double> surface_shares(const Space& space, const std::vector<std::string>& boundaries) {
   std::vector<double> shares(space.nodes(), 0.0);
   for_each_face(space, boundaries, [&](const CellFace& face, const std::vector<int>& places) {
-    const double share = area_of(space.mesh(), face) / static_cast<double>(places.size());
+    const double share =
+        face_area(topology(space.mesh().type()), face.face, space.mesh().geometry(face.cell)) /
+        static_cast<double>(places.size());
     for (const int place : places)
       for (int set = 0; set < space.sets(); ++set)
         shares[space.in_set(space.cell_nodes(face.cell)[place], set)] += share;

@@ -7,6 +7,10 @@
 namespace seam {
 
 class Space;
+struct CellTopology;
+
+/// Of a cell's face between its vertices, m^(d-1). @param x the cell's geometry nodes, [node][dimension]
+double face_area(const CellTopology& cell, int face, const double* x);
 
 /// How much of some parts of a mesh's boundary each local node stands for, m^(d-1): every face deals out its
 /// area among its nodes alike. 0 where a node lies on none of them. Collective.

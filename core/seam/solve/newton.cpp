@@ -221,6 +221,7 @@ void Newton::begin(const TimePoint& step) {
   iteration_ = 0;
   starts_ = true;
   stuck_ = 0;
+  shortened_ = 0;
   frozen_ = false;
   freezes_ = 0;
   freed_ = 0;
@@ -333,6 +334,9 @@ bool Newton::finish() {
 bool Newton::take(NewtonIteration& entry) {
   constexpr double blow_up = 1e4;
   constexpr double least = 1e-3;
+  // After so many increments in a row that were shortened for a residual that would grow, one is taken whole:
+  // where contact begins, and other laws take another branch, it grows once and is gone.
+  constexpr int patience = 2;
   const StateStore::Snapshot before = problem_.iterate(at_);
   not_finite_.clear();
   for (entry.damping = 1; entry.damping > least; entry.damping /= 2) {
@@ -341,7 +345,11 @@ bool Newton::take(NewtonIteration& entry) {
       const double size = measure({}, 0).residual;
       // What was at rest has a residual of rounding errors: nothing to compare with.
       const bool much_larger = !size_.at_rounding && size > blow_up * size_.residual && size > 1e-3;
-      if (std::isfinite(size) && !(options_.damping && much_larger && entry.damping > 0.1)) return true;
+      const bool shortens = options_.damping && much_larger && entry.damping > 0.1 && shortened_ < patience;
+      if (std::isfinite(size) && !shortens) {
+        shortened_ = entry.damping < 1 ? shortened_ + 1 : 0;
+        return true;
+      }
       if (!std::isfinite(size) && (!options_.damping || entry.damping / 2 <= least))
         not_finite_ = ": there" + problem_.assembler().describe_not_finite(at_);
     }

@@ -115,6 +115,7 @@ class Newton {
   int iteration_ = 0;
   bool starts_ = true;  ///< at states without an increment that led there
   int stuck_ = 0;       ///< iterations in a row in which the residual has not fallen
+  int shortened_ = 0;   ///< increments in a row that were not taken whole
   bool frozen_ = false;
   int freezes_ = 0;
   std::size_t freed_ = 0;          ///< the iteration from which on the cut has followed

@@ -330,7 +330,10 @@ void Problem::finish(double time, bool shape_derivatives) {
   if (shape_derivatives) add_swept_volumes();
   update_ties(time_point(time, 0, 1));
   carry_rates_of_bodies(fields_, ties(time_point(time, 0, 1)), communicator_);
-  leave_out_multipliers(fields, assembler_->ties());
+  leave_out_multipliers(fields, assembler_->ties(), interfaces_);
+  for (const FieldEntry& entry : fields_)
+    if (const std::string lost = describe_lost_multipliers(*entry.field, interfaces_); !lost.empty())
+      throw Error(entry.where, lost);
   assembler_->rebuild();
 }
 
