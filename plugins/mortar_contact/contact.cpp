@@ -22,19 +22,30 @@ using Master = Vector<2>;
 
 /// The pressure p on the slave's surface as it is deformed, with its outward normal n:
 ///
-///   <du - du', (p + q) n> - <dp, g>
+///   <du - du', (p + q) n> - <dp, g> - <grad dp, s grad p>
 ///
 /// du' at the point opposite, g the gap. q is 0, or the pressure in the pores of a porous body where that is
 /// also the pressure of what fills gaps: p is then what contact adds to it, the multiplier of thesis (5.13)
-/// less f of (5.10). What the second term makes up about a node, minus its weighted gap, becomes an equation
-/// by the contact law.
+/// less f of (5.10). What the rest makes up about a node, minus its weighted gap, becomes an equation by the
+/// contact law.
+///
+/// The last term, of gradients along the surface, is for nodes that next to nothing lies opposite to, as
+/// beyond the edge of a body: what holds their pressure vanishes with the square of what is left of a face,
+/// this one with what is left, so that their pressure becomes that of the nodes beside them, and nothing
+/// changes at once where an edge passes a node. s, m^4/N in the plane, is of the order of the size of cells
+/// to the third over the stiffness of the bodies.
 template <int sides, bool filled>
 struct Pressed {
   using InPores = Scalar<sides + 1>;
-  using Reads = std::conditional_t<filled, Slots<Value<Pressure>, Value<InPores>>, Slots<Value<Pressure>>>;
-  using Tests = std::conditional_t<sides == 2, Slots<Value<Slave>, Value<Pressure>, Value<Master>>,
-                                   Slots<Value<Slave>, Value<Pressure>>>;
+  template <class... More>
+  using ReadsWith = Slots<Gradient<Slave>, Value<Pressure>, Gradient<Pressure>, More...>;
+  using Reads = std::conditional_t<filled, ReadsWith<Value<InPores>>, ReadsWith<>>;
+  template <class... More>
+  using TestsWith = Slots<Value<Slave>, Value<Pressure>, Gradient<Pressure>, More...>;
+  using Tests = std::conditional_t<sides == 2, TestsWith<Value<Master>>, TestsWith<>>;
   static constexpr int movers = sides;
+  double smoothing;  ///< s over the square of a cell's diameter and its trace size, 1/Pa
+
   template <int dim, class T, class G>
   void operator()(const Point<dim, G>& x, const Trial<dim, T, Reads>& s, Test<dim, T, Tests>& r) const {
     T pressure = s.value(Pressure{});
@@ -42,6 +53,10 @@ struct Pressed {
     r.value(Slave{}) += pressure * x.normal;
     if constexpr (sides == 2) r.value(Master{}) -= pressure * x.normal;
     r.value(Pressure{}) -= T(x.gap);
+    const Mat<dim, dim, T> to_rest = inverse(identity<dim>() + s.gradient(Slave{}));
+    const Vec<dim, T> gradient = transpose(to_rest) * s.gradient(Pressure{});
+    const Vec<dim, T> along = gradient - dot(gradient, x.normal) * x.normal;
+    r.gradient(Pressure{}) -= (smoothing * x.cell_size * x.cell_size * x.trace_size) * (to_rest * along);
   }
 };
 
@@ -57,8 +72,10 @@ enum class Number {
 template <int sides, bool filled>
 struct State {
   using InPores = Scalar<sides + 1>;
-  using Reads = std::conditional_t<filled, Slots<Value<Pressure>, Value<InPores>>,
-                                   typename Pressed<sides, false>::Tests>;
+  using Reads =
+      std::conditional_t<filled, Slots<Value<Pressure>, Value<InPores>>,
+                         std::conditional_t<sides == 2, Slots<Value<Slave>, Value<Pressure>, Value<Master>>,
+                                            Slots<Value<Slave>, Value<Pressure>>>>;
   static constexpr int values(int) { return 1; }
   Number number;
   int component;
@@ -136,6 +153,13 @@ class MortarContact final : public Coupling {
               "are empty")
         .otherwise("true");
     s.number(
+         "smoothing",
+         "Gaps in the mean about a node are zero but for this, times the slope of the pressure's slope, the "
+         "size of a cell to the third, over the stiffness of the bodies: of higher order than the error of "
+         "displacements. With 0, contact with an edge of the other body may not be solvable")
+        .otherwise("0.02")
+        .at_least(0);
+    s.number(
          "complementarity",
          "Weight of gaps beside pressures in deciding which nodes touch, over the body's stiffness by the "
          "size of its cells. Answers do not depend on it; with large ones, what an iteration leaves of gaps "
@@ -168,7 +192,8 @@ class MortarContact final : public Coupling {
     // Laws of the bodies are known only now, long after that of the unknown has been asked for.
     *stiffness_ = parameters_.number("complementarity") * stiffness_of(sides);
     return {{choose(sides.fields.size(), filling(sides) >= 0,
-                    [](auto bodies, auto filled) { return make_term(Pressed<bodies, filled>{}); }),
+                    [smoothing = parameters_.number("smoothing") * compliance_of(sides)](
+                        auto bodies, auto filled) { return make_term(Pressed<bodies, filled>{smoothing}); }),
              operands(sides)}};
   }
 
@@ -200,6 +225,13 @@ class MortarContact final : public Coupling {
     throw Error(parameters_.where("on"),
                 "both bodies are rigid, or give no stress, so that nothing says where the pressure between "
                 "them acts; one of them has to deform");
+  }
+  /// Of all bodies that deform, 1/Pa.
+  [[nodiscard]] double compliance_of(const CouplingSides& sides) const {
+    double result = 0;
+    for (int side = 0; side < static_cast<int>(sides.fields.size()); ++side)
+      if (const double found = modulus(sides, side, parameters_.dimension()); found > 0) result += 1 / found;
+    return result;
   }
   /// The side whose pores fill gaps; -1 for none.
   [[nodiscard]] int filling(const CouplingSides& sides) const {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Ties and contact with unknowns on surfaces.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "scene_run.hpp"
@@ -356,6 +358,49 @@ output:
   fields: false
   errors: {u: {field: block, unknown: displacement, exact: [0, -0.1*y]}}
 checks: [{that: u.l2, kind: exact, is: 0, within: 1e-12, source: uniform strain}]
+)scene");
+  CAPTURE(run.done.output);
+  CHECK(run.done.code == 0);
+}
+
+TEST_CASE("edges of a punch slide over a body's nodes") {
+  const double offset = GENERATE(0.0, 1e-12, 1e-4, 0.02);
+  const int order = GENERATE(1, 2);
+  CAPTURE(offset, order);
+  const Run run(R"scene(
+title: A punch pressed into a slab and drawn along it
+dimension: 2
+plugins: [solid, mortar_contact]
+parameters: {o: )scene" +
+                std::to_string(order) + ", left: " + fmt::format("{}", 0.25 + offset / 16) + R"scene(}
+meshes: {slab: {grid: {from: [0, 0], to: [1, 1], cells: [16, 16], order: "${o}"}}}
+fields:
+  slab:
+    type: solid
+    mesh: slab
+    order: "${o}"
+    material: {type: neo_hookean, young: 10, poisson: 0.3}
+    boundary: [{on: y_min, displacement: [0, 0]}]
+interfaces:
+  tool:
+    type: obstacle
+    from: slab
+    boundaries: [y_max]
+    body: {type: box, from: [left, 1], to: [left + 0.3, 2]}
+    motion: {translation: ["0.2*max(0, t - 1)", "-0.05*min(t, 1)"]}
+coupling: [{type: mortar_contact, on: tool}]
+time: {static: true, end: 2, step: {initial: 0.1}}
+solver: {newton: {tolerance: 1e-10, increment_tolerance: 1e-8}}
+output:
+  fields: false
+  probes: {bottom: {field: slab, on: y_min, quantity: reaction, component: y}}
+  formulas: {unbalanced: abs(bottom + tool_force_y)}
+  statistics: {most_unbalanced: {of: unbalanced, what: maximum}}
+checks:
+  - {that: steps.rejected, kind: trend, at_most: 0, source: "what an edge presses on changes hands gradually"}
+  - {that: newton.iterations.most, kind: trend, at_most: 12, source: the tangent is exact}
+  - {that: most_unbalanced, kind: exact, at_most: 1e-10, source: balance of forces}
+  - {that: bottom, kind: reference, at: 1, is: 0.366, within: 3%, source: "contact by Nitsche's method on 64 cells"}
 )scene");
   CAPTURE(run.done.output);
   CHECK(run.done.code == 0);
