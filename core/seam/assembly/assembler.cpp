@@ -223,8 +223,10 @@ std::vector<double> Assembler::rounding() const {
   // Roundings are as often up as down: their squares add up.
   std::vector<double> squares = sum_rows(
       [&](const Field&, const Block& block, int node, int c) {
-        const double value = block.now.value[static_cast<std::size_t>(node) * block.size + c];
-        return spacing * (std::abs(value) + added.at(&block)[c]);
+        const std::size_t i = static_cast<std::size_t>(node) * block.size + c;
+        // What has gone leaves the rounding of what it was, as a pressure of contact.
+        return spacing *
+               (std::max(std::abs(block.now.value[i]), std::abs(block.old.value[i])) + added.at(&block)[c]);
       },
       [](double entry, double size) { return entry * size * entry * size; });
   // What is held or tied has no equation but its own identity, in which nothing is rounded.

@@ -76,9 +76,9 @@ class Assembler {
   /// when everything is. Evaluates terms one by one: not for every step. Collective.
   [[nodiscard]] std::string describe_not_finite(const TimePoint& at);
   /// What the rounding of unknowns makes of the residual, [owned row]: the matrix times the spacing of
-  /// floating-point numbers at the unknowns, added up as what goes up as often as down. Displacements count
-  /// as no less than a cell is wide: what they are is seen beside the 1 of the deformation gradient. From the
-  /// last matrix. Collective.
+  /// floating-point numbers at the unknowns, now or when the step began, added up as what goes up as often as
+  /// down. Displacements count as no less than a cell is wide: what they are is seen beside the 1 of the
+  /// deformation gradient. From the last matrix. Collective.
   [[nodiscard]] std::vector<double> rounding() const;
   /// A number for each unknown: a component of a block at a local node.
   using PerUnknown = std::function<double(const Field& field, const Block& block, int node, int component)>;

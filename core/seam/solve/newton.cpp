@@ -343,8 +343,11 @@ bool Newton::take(NewtonIteration& entry) {
     if (follow(entry)) {
       problem_.assembler().assemble(at_, true);
       const double size = measure({}, 0).residual;
-      // What was at rest has a residual of rounding errors: nothing to compare with.
-      const bool much_larger = !size_.at_rounding && size > blow_up * size_.residual && size > 1e-3;
+      // What was at rest has a residual of rounding errors: nothing to compare with. Nor is what has gone, as
+      // a pressure of contact, beside nothing.
+      const bool much_larger =
+          !size_.at_rounding && size > blow_up * size_.residual && size > 1e-3 &&
+          measure({}, 0, problem_.assembler().rounding()).residual > blow_up * size_.residual;
       const bool shortens = options_.damping && much_larger && entry.damping > 0.1 && shortened_ < patience;
       if (std::isfinite(size) && !shortens) {
         shortened_ = entry.damping < 1 ? shortened_ + 1 : 0;
