@@ -102,5 +102,6 @@ TEST_CASE("where no share leads to all that acts the message says how far they c
   const Run run(scene, "--quiet");
   CHECK(run.done.code == 1);
   CHECK_THAT(run.done.output, Contains("not converged after 1 iterations") &&
+                                  Contains(", the most at rest at (") &&
                                   Contains("; nor raised little by little, beyond 0 % of what acts"));
 }

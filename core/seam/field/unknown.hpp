@@ -49,10 +49,10 @@ struct Unknown {
   /// outer surface where the list is empty. Terms read it as any other; its functions are those of the mesh's
   /// Lagrange space that do not vanish there.
   std::optional<std::vector<std::string>> boundaries = {};
-  /// Unknown of its field that its equations hold, if they do: where a component of this is given already, or
-  /// where parts of the boundary with such multipliers meet, nodes have none of it, and those beside them
-  /// take over their functions. One with fewer components than what it holds, as a pressure, stays but where
-  /// all of them are given and nothing opposite moves.
+  /// Unknown of its field that its equations hold, if they do: where a component of this is given already,
+  /// where parts of the boundary with such multipliers meet, or one of another field holds it, nodes have
+  /// none of it, and those beside them take over their functions. One with fewer components than what it
+  /// holds, as a pressure, stays but where all of them are given and nothing opposite moves.
   std::string multiplier_of = {};
   /// What becomes of its equations; null: what terms assemble is zero.
   std::shared_ptr<const RowLaw> law = {};

@@ -56,8 +56,8 @@ void for_each_element(const Interfaces& interfaces, const Field& field, const st
 }
 
 /// Whether a node's function vanishes at all points of an element, as that of one beside its face.
-bool vanishes(const Element& element, int order, int node) {
-  const ShapeTable& table = *element.sides[0].table[order - 1];
+bool vanishes(const Element& element, int order, int node, int side = 0) {
+  const ShapeTable& table = *element.sides[side].table[order - 1];
   for (int q = 0; q < element.points; ++q)
     if (std::abs(table.value[static_cast<std::size_t>(q) * table.stride + node]) > 1e-14) return false;
   return true;
@@ -129,12 +129,45 @@ bool holds_all(const Field& field, const Unknown& multiplier) {
   return multiplier.components == field.place(multiplier.multiplier_of).components;
 }
 
+/// Nodes of a field that multipliers of others hold to theirs, by block and global node: where it is the
+/// second one of an interface, or looked at itself. Collective.
+std::set<std::pair<int, int>> held_by_others(const Interfaces& interfaces, const Field& field) {
+  struct Node {
+    int block, node;
+  };
+  std::vector<Node> own;
+  Element element;
+  for (const auto& [name, parts] : interfaces)
+    for (const InterfacePart& part : parts) {
+      const std::vector<Field*> fields = part.domain->fields();
+      if (fields.size() != 2 || fields[1] != &field) continue;
+      for_each_multiplier(*fields[0], [&, &name = name](const Multiplier& of) {
+        const std::string& held = of.unknown.multiplier_of;
+        if (!of.unknown.name.starts_with(name + ".") || !holds_all(*fields[0], of.unknown)) return;
+        const int number = field.place(held).block;
+        const Space& space = *field.blocks()[number].space;
+        for (int e = 0; e < part.domain->size(); ++e) {
+          part.domain->fill(e, element);
+          const int* nodes = part.domain->nodes(e, 1, number);
+          for (int a = 0; a < space.nodes_per_cell(); ++a)
+            if (!vanishes(element, space.order(), a, 1)) own.push_back({number, space.global_node(nodes[a])});
+        }
+      });
+    }
+  std::set<std::pair<int, int>> result;
+  for (const Node& node : field.mesh().communicator().gather_all(own)) result.emplace(node.block, node.node);
+  return result;
+}
+
 /// Of what a field's multipliers hold, where it is given already.
 class Given {
  public:
   /// @param tied of the field: block and global node
   Given(const Field& field, std::set<std::pair<int, int>> tied, const Interfaces& interfaces)
       : field_(field), tied_(std::move(tied)), interfaces_(interfaces) {
+    // Where joints meet, one of them is left to the others: around a point all of them would hold the same
+    // twice.
+    tied_.merge(held_by_others(interfaces, field));
     for_each_multiplier(field, [&](const Multiplier& of) {
       if (!holds_all(field, of.unknown)) return;
       for (int node = 0; node < of.block.space->owned_nodes(); ++node)

@@ -13,7 +13,8 @@ namespace seam {
 using Interfaces = std::map<std::string, std::vector<InterfacePart>>;
 
 /// Takes multipliers out of fields (Unknown::multiplier_of) at nodes where what they hold is prescribed or
-/// tied, where two of them would hold the same, or where next to nothing is opposite. Collective.
+/// tied, where two of them would hold the same, where one of another field holds it, or where next to nothing
+/// is opposite. Collective.
 /// @param ties of all fields
 void leave_out_multipliers(const std::vector<Field*>& fields, const std::vector<Ties::Resolved>& ties,
                            const Interfaces& interfaces);

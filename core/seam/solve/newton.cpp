@@ -11,6 +11,7 @@
 #include "seam/assembly/steady_part.hpp"
 #include "seam/base/stopwatch.hpp"
 #include "seam/field/field.hpp"
+#include "seam/solve/unsettled.hpp"
 
 namespace seam {
 namespace {
@@ -31,72 +32,6 @@ constexpr int free_iterations = 3;
 double remainder(double increment, double before) {
   const double contraction = before > 0 ? increment / before : 1;
   return contraction < 0.5 ? increment * contraction / (1 - contraction) : increment;
-}
-
-/// The tied unknown that is farthest from where relations say, beside its size; "" where all are there.
-/// Collective.
-std::string describe_pending(Problem& problem, const TimePoint& at) {
-  constexpr double enough = 1e-10;
-  struct Way {
-    double part, way;
-    int entry, unknown, component;
-    double at[3];
-  };
-  struct Place {
-    int entry;
-    Block* block;
-    int number;
-  };
-  std::vector<Place> blocks;
-  for (int e = 0; e < static_cast<int>(problem.fields().size()); ++e) {
-    std::vector<Block>& own = problem.fields()[e].field->blocks();
-    for (int b = 0; b < static_cast<int>(own.size()); ++b) blocks.push_back({e, &own[b], b});
-  }
-  const auto value = [&](const UnknownPlace& of) {
-    const Block& block = *blocks[of.block].block;
-    return block.now
-        .value[static_cast<std::size_t>(block.space->local_node(of.node)) * block.size + of.component];
-  };
-  const auto is_here = [&](const UnknownPlace& of) {
-    return of.is_clock() || blocks[of.block].block->space->local_node(of.node) >= 0;
-  };
-  std::vector<Way> farthest;
-  for (const Ties::Resolved& tie : problem.ties(at)) {
-    // Each rank has what its own unknowns are tied to; of others' ties it need not.
-    if (!is_here(tie.unknown) ||
-        !std::ranges::all_of(tie.to, [&](const TiedTo& to) { return is_here(to.unknown); }))
-      continue;
-    const Place& place = blocks[tie.unknown.block];
-    const FieldEntry& entry = problem.fields()[place.entry];
-    Way way{0, tie.constant - value(tie.unknown), place.entry, 0, 0, {}};
-    double size = std::abs(tie.constant);
-    for (int u = 0; u < static_cast<int>(entry.field->unknowns().size()); ++u) {
-      const Unknown& unknown = entry.field->unknowns()[u];
-      const Field::ComponentRange range = entry.field->place(unknown.name);
-      const int component = tie.unknown.component - range.offset;
-      if (range.block != place.number || component < 0 || component >= range.components) continue;
-      way.unknown = u;
-      way.component = range.components == entry.mesh->dimension() ? component : -1;
-      size = std::max(size, unknown.scale);
-    }
-    for (const TiedTo& to : tie.to) {
-      if (to.unknown.is_clock()) continue;
-      way.way += to.coefficient * value(to.unknown);
-      size = std::max(size, std::abs(to.coefficient * value(to.unknown)));
-    }
-    way.part = std::abs(way.way) / size;
-    std::copy_n(tie.unknown.position, 3, way.at);
-    if (way.part > enough && (farthest.empty() || way.part > farthest.front().part)) farthest.assign(1, way);
-  }
-  farthest = problem.communicator().gather_all(farthest);
-  if (farthest.empty()) return "";
-  const Way& worst = *std::ranges::max_element(farthest, {}, &Way::part);
-  const FieldEntry& entry = problem.fields()[worst.entry];
-  const Unknown& unknown = entry.field->unknowns()[worst.unknown];
-  return fmt::format("'{}'{} of field '{}' at ({:.6g}) is {:.3g} {} from where it is tied to", unknown.name,
-                     worst.component < 0 ? "" : fmt::format(" in {}", "xyz"[worst.component]), entry.name,
-                     fmt::join(worst.at, worst.at + entry.mesh->dimension(), ", "), std::abs(worst.way),
-                     unknown.unit);
 }
 
 }  // namespace
@@ -281,10 +216,10 @@ bool Newton::iterate() {
                       "tied to may be out of its reach{}",
                       iteration_, pending, refusal()));
     return fail(fmt::format(
-        "not converged after {} iterations: relative residual {:.2e} of {} (tolerance {:.0e}), relative "
+        "not converged after {} iterations: relative residual {:.2e} of {}{} (tolerance {:.0e}), relative "
         "increment {:.2e} (tolerance {:.0e}){}",
-        iteration_, size_.residual, size_.worst, options_.tolerance, size_.increment,
-        options_.increment_tolerance, refusal()));
+        iteration_, size_.residual, size_.worst, describe_largest_residual(problem_, size_.worst),
+        options_.tolerance, size_.increment, options_.increment_tolerance, refusal()));
   }
   if (iteration_ >= free_iterations) problem_.hold_spaces();
   if (!frozen_ && problem_.is_cut() && cycles()) {
