@@ -105,3 +105,31 @@ TEST_CASE("where no share leads to all that acts the message says how far they c
                                   Contains(", the most at rest at (") &&
                                   Contains("; nor raised little by little, beyond 0 % of what acts"));
 }
+
+TEST_CASE("a step that does not converge says where the residual is largest") {
+  // Under a pull at its end the rod's strain is uniform in each iteration: inside of it forces cancel.
+  const std::string scene = R"yaml(
+title: A rod is pulled
+dimension: 2
+plugins: [solid]
+meshes: {rod: {grid: {from: [0, 0], to: [4, 1], cells: [4, 1]}}}
+fields:
+  rod:
+    type: solid
+    mesh: rod
+    material: {type: neo_hookean, young: 10, poisson: 0}
+    boundary:
+      - {on: x_min, displacement: [0, null]}
+      - {on: [y_min, y_max], displacement: [null, 0]}
+      - {on: x_max, traction: [5, 0]}
+time: {static: true, end: 1, step: {initial: 1, minimum: 1}}
+solver: {newton: {maximum_iterations: 1}}
+output: {fields: false}
+)yaml";
+  for (const std::string with : {"", "mpirun --oversubscribe -np 2"}) {
+    const Run run(scene, "--quiet", with);
+    CAPTURE(run.done.output);
+    CHECK(run.done.code == 1);
+    CHECK_THAT(run.done.output, Contains("of rod.displacement, the most at rest at (4, "));
+  }
+}

@@ -129,31 +129,34 @@ bool holds_all(const Field& field, const Unknown& multiplier) {
   return multiplier.components == field.place(multiplier.multiplier_of).components;
 }
 
-/// Nodes of a field that multipliers of others hold to theirs, by block and global node: where it is the
-/// second one of an interface, or looked at itself. Collective.
-std::set<std::pair<int, int>> held_by_others(const Interfaces& interfaces, const Field& field) {
+/// Nodes of a field that multipliers on the surface opposite hold, by block and global node. Collective.
+std::set<std::pair<int, int>> held_from_opposite(const Interfaces& interfaces, const Field& field) {
   struct Node {
     int block, node;
   };
-  std::vector<Node> own;
-  Element element;
+  const auto looks_at_it = [&](const IntegrationDomain& domain) {
+    const std::vector<Field*> fields = domain.fields();
+    return fields.size() == 2 && fields[1] == &field;
+  };
+  std::set<const Field*> opposite;
   for (const auto& [name, parts] : interfaces)
-    for (const InterfacePart& part : parts) {
-      const std::vector<Field*> fields = part.domain->fields();
-      if (fields.size() != 2 || fields[1] != &field) continue;
-      for_each_multiplier(*fields[0], [&, &name = name](const Multiplier& of) {
-        const std::string& held = of.unknown.multiplier_of;
-        if (!of.unknown.name.starts_with(name + ".") || !holds_all(*fields[0], of.unknown)) return;
-        const int number = field.place(held).block;
-        const Space& space = *field.blocks()[number].space;
-        for (int e = 0; e < part.domain->size(); ++e) {
-          part.domain->fill(e, element);
-          const int* nodes = part.domain->nodes(e, 1, number);
-          for (int a = 0; a < space.nodes_per_cell(); ++a)
-            if (!vanishes(element, space.order(), a, 1)) own.push_back({number, space.global_node(nodes[a])});
-        }
-      });
-    }
+    for (const InterfacePart& part : parts)
+      if (looks_at_it(*part.domain)) opposite.insert(part.domain->fields()[0]);
+  std::vector<Node> own;
+  for (const Field* other : opposite)
+    for_each_multiplier(*other, [&](const Multiplier& of) {
+      if (!holds_all(*other, of.unknown)) return;
+      const int number = field.place(of.unknown.multiplier_of).block;
+      const Space& space = *field.blocks()[number].space;
+      for_each_element(interfaces, *other, of.unknown.name,
+                       [&](const IntegrationDomain& domain, int e, const Element& element) {
+                         if (!looks_at_it(domain)) return;
+                         const int* nodes = domain.nodes(e, 1, number);
+                         for (int a = 0; a < space.nodes_per_cell(); ++a)
+                           if (!vanishes(element, space.order(), a, 1))
+                             own.push_back({number, space.global_node(nodes[a])});
+                       });
+    });
   std::set<std::pair<int, int>> result;
   for (const Node& node : field.mesh().communicator().gather_all(own)) result.emplace(node.block, node.node);
   return result;
@@ -167,7 +170,7 @@ class Given {
       : field_(field), tied_(std::move(tied)), interfaces_(interfaces) {
     // Where joints meet, one of them is left to the others: around a point all of them would hold the same
     // twice.
-    tied_.merge(held_by_others(interfaces, field));
+    tied_.merge(held_from_opposite(interfaces, field));
     for_each_multiplier(field, [&](const Multiplier& of) {
       if (!holds_all(field, of.unknown)) return;
       for (int node = 0; node < of.block.space->owned_nodes(); ++node)
